@@ -1,0 +1,54 @@
+# `make demo` and `make test` set up all they need: uv where it is present, venv and pip otherwise.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+UV := $(shell command -v uv 2>/dev/null)
+# One worker for each core; `make test JOBS=0` runs in one process.
+JOBS ?= auto
+
+ifdef UV
+  MAKE_VENV = $(UV) venv --quiet --allow-existing --python $(PYTHON) $(VENV)
+  INSTALL = $(UV) pip install --quiet --python $(BIN)/python
+else
+  MAKE_VENV = $(PYTHON) -m venv $(VENV)
+  INSTALL = $(BIN)/python -m pip install --quiet --disable-pip-version-check
+endif
+
+.PHONY: help demo test lint bench golden clean
+help:
+	@echo "make demo    plan with every planner on three tessellations; a table, a picture and an animation in demo/"
+	@echo "make test    all tests"
+	@echo "make lint    ruff, mypy and import-linter"
+	@echo "make bench   speed, as ratios against other libraries"
+	@echo "make clean   remove the environment and all caches"
+
+# What a user needs, and beyond it what a developer needs: the demo waits only for the former.
+$(VENV)/.user: pyproject.toml
+	$(MAKE_VENV)
+	$(INSTALL) -e .
+	@touch $@
+$(VENV)/.dev: pyproject.toml $(VENV)/.user
+	$(INSTALL) -e '.[dev]'
+	@touch $@
+$(VENV)/.bench: pyproject.toml $(VENV)/.user
+	$(INSTALL) -e '.[bench]'
+	@touch $@
+
+demo: $(VENV)/.user
+	$(BIN)/trihex demo --out demo
+
+test: $(VENV)/.dev
+	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal
+
+lint: $(VENV)/.dev
+	$(BIN)/ruff check src tests benchmarks examples
+	$(BIN)/ruff format --check src tests benchmarks examples
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+
+bench: $(VENV)/.bench
+	$(BIN)/python -m benchmarks
+
+clean:
+	rm -rf $(VENV) demo build dist .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -1,0 +1,62 @@
+"""The errors that trihex raises.
+
+Every error that a caller may want to catch descends from `TrihexError`, and from the builtin that names its kind::
+
+    TrihexError
+    ├── TessellationError (ValueError)   a tessellation, neighbourhood or cost table that does not exist
+    ├── AreaError         (ValueError)   barriers that make no area, a generator asked for the impossible
+    ├── ScenarioError     (ValueError)   destinations, robots or rules that do not fit their area
+    ├── PlanError         (ValueError)   a planner or an option of it that does not exist, actions that make no plan
+    ├── FormatError       (ValueError)   a file that is not what it claims to be
+    ├── TooLargeError     (MemoryError)  work that would not fit into memory, refused before it starts
+    └── MissingExtraError (ImportError)  an optional library that is not installed
+
+"This robot cannot arrive" and "these two robots collide" are no errors but values: see `Scenario` and `audit`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from difflib import get_close_matches
+
+
+class TrihexError(Exception):
+    """Root of all errors of trihex; its message is one line that names the parameter, the rule and the value."""
+
+
+class TessellationError(TrihexError, ValueError):
+    """A tessellation, neighbourhood or cost table that does not exist."""
+
+
+class AreaError(TrihexError, ValueError):
+    """Barriers that make no area, or a generator asked for the impossible."""
+
+
+class ScenarioError(TrihexError, ValueError):
+    """Destinations, robots or rules that do not fit their area."""
+
+
+class PlanError(TrihexError, ValueError):
+    """A planner or an option of it that does not exist, or actions that make no plan."""
+
+
+class FormatError(TrihexError, ValueError):
+    """A file that is not what it claims to be."""
+
+
+class TooLargeError(TrihexError, MemoryError):
+    """Work that would not fit into memory, refused before it starts."""
+
+
+class MissingExtraError(TrihexError, ImportError):
+    """An optional library that is not installed; the message names the extra that brings it."""
+
+
+def check_choice(parameter: str, value: object, choices: Iterable[str], error: type[TrihexError]) -> str:
+    """Return `value` if it is one of `choices`, else raise `error` with the choices and the nearest of them."""
+    names = list(choices)
+    if isinstance(value, str) and value in names:
+        return value
+    near = get_close_matches(str(value).lower(), names, n=1)
+    hint = f"; did you mean {near[0]!r}?" if near else ""
+    raise error(f"{parameter} must be one of {', '.join(names)}, not {value!r}{hint}")

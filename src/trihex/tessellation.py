@@ -1,0 +1,308 @@
+"""Tessellation: the shapes of cells, their neighbours, directions, costs, lattice vertices, centres and polygons.
+
+This is the only file that knows shapes; everything else works on the tables made here.
+x grows to the east, y to the south, (0, 0) is the north-west cell. Lengths are in edge steps: the centres of two cells
+that share an edge are 1 apart.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import sqrt
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from trihex.errors import TessellationError, check_choice
+from trihex.record import Record, read_only
+
+TESSELLATIONS = ("triangular", "hexagonal", "square")
+NEIGHBOURHOODS = ("full", "edge")
+COSTS = ("paper", "euclidean")
+
+# Neighbours as (dx, dy, direction, distance of the centres, lattice vertex passed), edge neighbours first.
+# The vertex is the position (dx, dy) of the cell that lends the vertex its number (see `Layout`); None on an edge.
+# One list for each orientation of a cell; both list directions of equal distance at equal places.
+_Row = tuple[int, int, str, float, tuple[int, int] | None]
+_SQUARE: list[_Row] = [
+    (0, -1, "N", 1, None),
+    (1, 0, "E", 1, None),
+    (0, 1, "S", 1, None),
+    (-1, 0, "W", 1, None),
+    (1, -1, "NE", sqrt(2), (1, 0)),
+    (1, 1, "SE", sqrt(2), (1, 1)),
+    (-1, 1, "SW", sqrt(2), (0, 1)),
+    (-1, -1, "NW", sqrt(2), (0, 0)),
+]
+_HEXAGON_EVEN: list[_Row] = [
+    (0, -1, "N", 1, None),
+    (1, -1, "NE", 1, None),
+    (1, 0, "SE", 1, None),
+    (0, 1, "S", 1, None),
+    (-1, 0, "SW", 1, None),
+    (-1, -1, "NW", 1, None),
+]
+_HEXAGON_ODD: list[_Row] = [
+    (0, -1, "N", 1, None),
+    (1, 0, "NE", 1, None),
+    (1, 1, "SE", 1, None),
+    (0, 1, "S", 1, None),
+    (-1, 1, "SW", 1, None),
+    (-1, 0, "NW", 1, None),
+]
+# A triangle that points north: three neighbours meet it at its apex, three at each end of its base.
+_TRIANGLE_NORTH: list[_Row] = [
+    (1, 0, "E", 1, None),
+    (-1, 0, "W", 1, None),
+    (0, 1, "S", 1, None),
+    (2, 0, "EE", sqrt(3), (1, 1)),
+    (-2, 0, "WW", sqrt(3), (-1, 1)),
+    (1, -1, "NE", sqrt(3), (0, 0)),
+    (-1, -1, "NW", sqrt(3), (0, 0)),
+    (1, 1, "SE", sqrt(3), (1, 1)),
+    (-1, 1, "SW", sqrt(3), (-1, 1)),
+    (0, -1, "N", 2, (0, 0)),
+    (2, 1, "SSE", 2, (1, 1)),
+    (-2, 1, "SSW", 2, (-1, 1)),
+]
+# Its mirror image: north and south exchanged, apex below.
+_TRIANGLE_SOUTH: list[_Row] = [
+    (1, 0, "E", 1, None),
+    (-1, 0, "W", 1, None),
+    (0, -1, "N", 1, None),
+    (2, 0, "EE", sqrt(3), (1, 0)),
+    (-2, 0, "WW", sqrt(3), (-1, 0)),
+    (1, 1, "SE", sqrt(3), (0, 1)),
+    (-1, 1, "SW", sqrt(3), (0, 1)),
+    (1, -1, "NE", sqrt(3), (1, 0)),
+    (-1, -1, "NW", sqrt(3), (-1, 0)),
+    (0, 1, "S", 2, (0, 1)),
+    (2, -1, "NNE", 2, (1, 0)),
+    (-2, -1, "NNW", 2, (-1, 0)),
+]
+_ROWS = {
+    "triangular": (_TRIANGLE_NORTH, _TRIANGLE_SOUTH),
+    "hexagonal": (_HEXAGON_EVEN, _HEXAGON_ODD),
+    "square": (_SQUARE, _SQUARE),
+}
+# The cells around a lattice vertex in clockwise order, as positions relative to the cell that lends it its number.
+_RINGS: dict[str, list[tuple[int, int]]] = {
+    "triangular": [(-1, -1), (0, -1), (1, -1), (1, 0), (0, 0), (-1, 0)],
+    "hexagonal": [],
+    "square": [(-1, -1), (0, -1), (0, 0), (-1, 0)],
+}
+_EDGE_COST = {"paper": 10, "euclidean": 1000}
+
+
+@dataclass(frozen=True, eq=False)
+class Tessellation(Record):
+    """A way to cover the plane with cells, and which of them are neighbours at what cost.
+
+    Parameters
+    ----------
+    name : {"triangular", "hexagonal", "square"}
+    neighbourhood : {"full", "edge"}
+        "full": triangular 12, hexagonal 6, square 8 neighbours; "edge": only those that share an edge (3, 6, 4).
+    costs : {"paper", "euclidean"}
+        "paper": 10 across an edge, 14 through a vertex (section 2.1.1 of the paper). "euclidean": the distance of the
+        centres, rounded to integers on a scale where an edge step costs 1000 (square 1414; triangular 1732, 2000).
+
+    Raises
+    ------
+    TessellationError
+        If one of the names does not exist.
+
+    Examples
+    --------
+    >>> Tessellation("triangular").cost_of_direction.tolist()
+    [10, 10, 10, 14, 14, 14, 14, 14, 14, 14, 14, 14]
+    >>> Tessellation("square", "edge").direction_names[0]
+    ('N', 'E', 'S', 'W')
+    """
+
+    name: str
+    neighbourhood: str = "full"
+    costs: str = "paper"
+
+    def __post_init__(self) -> None:
+        check_choice("tessellation", self.name, TESSELLATIONS, TessellationError)
+        check_choice("neighbourhood", self.neighbourhood, NEIGHBOURHOODS, TessellationError)
+        check_choice("costs", self.costs, COSTS, TessellationError)
+
+    @cached_property
+    def _rows(self) -> tuple[list[_Row], list[_Row]]:
+        one, other = _ROWS[self.name]
+        if self.neighbourhood == "edge":
+            return [row for row in one if row[4] is None], [row for row in other if row[4] is None]
+        return one, other
+
+    @cached_property
+    def direction_names(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
+        """Names of the directions, for cells of orientation 0 and 1 (see `orientation_of_cell`)."""
+        return tuple(row[2] for row in self._rows[0]), tuple(row[2] for row in self._rows[1])
+
+    @property
+    def direction_count(self) -> int:
+        """Number of neighbours of a cell: 12, 8, 6, 4 or 3."""
+        return len(self._rows[0])
+
+    @cached_property
+    def edge_count(self) -> int:
+        """Number of neighbours that share an edge; their directions are numbered first."""
+        return sum(row[4] is None for row in self._rows[0])
+
+    @cached_property
+    def step_of_direction(self) -> NDArray[np.int32]:
+        """(dx, dy) of each direction, shape (2 orientations, directions, 2)."""
+        return read_only(np.array([[row[:2] for row in rows] for rows in self._rows], dtype=np.int32))
+
+    @cached_property
+    def cost_of_direction(self) -> NDArray[np.int32]:
+        """Cost of a move in each direction, shape (directions,); the same for both orientations."""
+        if self.costs == "paper":
+            return read_only(np.array([10 if row[4] is None else 14 for row in self._rows[0]], dtype=np.int32))
+        return read_only(np.array([round(1000 * row[3]) for row in self._rows[0]], dtype=np.int32))
+
+    @property
+    def edge_cost(self) -> int:
+        """Cost of a step across an edge, the unit of all times: 10 (paper) or 1000 (euclidean)."""
+        return _EDGE_COST[self.costs]
+
+    def orientation_of_cell(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.int64]:
+        """Return 0 or 1: triangles that point north or south, hexagons of even or odd columns, squares 0."""
+        x, y = np.asarray(x, dtype=np.int64), np.asarray(y, dtype=np.int64)
+        if self.name == "triangular":
+            return np.asarray((x + y) & 1)
+        return np.asarray((x & 1) + 0 * y) if self.name == "hexagonal" else 0 * (x + y)
+
+    def centre_of_cell(self, x: ArrayLike, y: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return the centre of cells (x, y), in edge steps from the north-west corner of the area, y to the south."""
+        orientation = self.orientation_of_cell(x, y)
+        x, y = np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)
+        if self.name == "triangular":  # side sqrt(3), height 1.5; the centre lies at a third of the height
+            return (x + 1) * sqrt(3) / 2, 1.5 * y + 1.0 - 0.5 * orientation
+        if self.name == "hexagonal":  # side 1/sqrt(3), height 1, columns 1.5 sides apart
+            return (1.5 * x + 1) / sqrt(3), y + 0.5 + 0.5 * orientation
+        return x + 0.5, y + 0.5
+
+    def cell_at_point(self, px: ArrayLike, py: ArrayLike) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Return (x, y) of the cells in which points lie, the inverse of `centre_of_cell`; any integers, unbounded."""
+        px, py = np.asarray(px, dtype=np.float64), np.asarray(py, dtype=np.float64)
+        if self.name == "triangular":
+            y = np.floor(py / 1.5)
+            # In half sides from the west, at depth 0..1 below the top of its row, the slanted edges of a row are
+            # across - depth = first + 2 i and across + depth = first + 2 i; each of them crossed is one cell further.
+            across, depth, first = px * 2 / sqrt(3), py / 1.5 - y, (y + 1) % 2
+            x = np.floor((across - depth - first) / 2) + np.floor((across + depth - first) / 2) + first
+            return x.astype(np.int64), y.astype(np.int64)
+        if self.name == "hexagonal":
+            # A point belongs to the hexagon of the nearest centre: try the four centres around it.
+            column = np.floor((px * sqrt(3) - 1) / 1.5)
+            best_x = best_y = np.zeros(np.broadcast(px, py).shape)
+            least = np.full(best_x.shape, np.inf)
+            for x in (column, column + 1):
+                y = np.round(py - 0.5 - 0.5 * (x % 2))
+                cx, cy = self.centre_of_cell(x, y)
+                away = (px - cx) ** 2 + (py - cy) ** 2
+                best_x, best_y = np.where(away < least, x, best_x), np.where(away < least, y, best_y)
+                least = np.minimum(away, least)
+            return best_x.astype(np.int64), best_y.astype(np.int64)
+        return np.floor(px).astype(np.int64), np.floor(py).astype(np.int64)
+
+    def polygon_of_cell(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
+        """Return the corners of cells (x, y), shape (..., corners, 2), clockwise on the page, in edge steps."""
+        cx, cy = self.centre_of_cell(x, y)
+        if self.name == "triangular":
+            flip = 1.0 - 2.0 * self.orientation_of_cell(x, y)
+            half = sqrt(3) / 2
+            corners = [(0 * cx, -flip), (half * flip, 0.5 * flip), (-half * flip, 0.5 * flip)]
+        elif self.name == "hexagonal":
+            side = 1 / sqrt(3)
+            shape = [(-0.5, -0.5), (0.5, -0.5), (1.0, 0.0), (0.5, 0.5), (-0.5, 0.5), (-1.0, 0.0)]
+            corners = [(0 * cx + side * dx, 0 * cy + dy) for dx, dy in shape]
+        else:
+            shape = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)]
+            corners = [(0 * cx + dx, 0 * cy + dy) for dx, dy in shape]
+        return np.stack([np.stack([cx + dx, cy + dy], axis=-1) for dx, dy in corners], axis=-2)
+
+    def extent(self, height: int, width: int) -> tuple[float, float]:
+        """Return the width and the height, in edge steps, of the box around an area of height x width cells."""
+        if self.name == "triangular":
+            return (width + 1) * sqrt(3) / 2, 1.5 * height
+        if self.name == "hexagonal":
+            return (1.5 * width + 0.5) / sqrt(3), height + (0.5 if width > 1 else 0.0)
+        return float(width), float(height)
+
+    def layout(self, height: int, width: int) -> Layout:
+        """Return how an area of height x width cells lies in the padded flat arrays of the kernels."""
+        return Layout(self, height, width)
+
+
+@dataclass(frozen=True, eq=False)
+class Layout(Record):
+    """How the cells of an area lie in the padded flat arrays of the kernels.
+
+    Cell (x, y) is *site* ``origin + y * pitch + x``. The padding counts as barrier, so kernels need no bounds: rows share
+    a margin of two sites, which the widest step of a triangle (two columns) never crosses. The pitch is odd for
+    triangles, even for hexagons and the origin always even, so that ``site & 1`` is the orientation of the cell.
+
+    A lattice vertex bears the number of one of the cells around it: on triangles the north-pointing cell whose apex it
+    is, on squares the cell to its south-east. These cells may lie in the padding, and no two vertices share one.
+    """
+
+    tessellation: Tessellation
+    height: int
+    width: int
+
+    @cached_property
+    def pitch(self) -> int:
+        """Sites from one row to the next."""
+        pitch = self.width + 2
+        wrong = {"triangular": pitch % 2 == 0, "hexagonal": pitch % 2 == 1, "square": False}
+        return pitch + wrong[self.tessellation.name]
+
+    @cached_property
+    def origin(self) -> int:
+        """Site of cell (0, 0)."""
+        return (self.pitch + 3) // 2 * 2
+
+    @cached_property
+    def size(self) -> int:
+        """Number of sites, padding included."""
+        return self.origin + (self.height + 1) * self.pitch + 2
+
+    def _offsets(self, steps: NDArray[np.int32]) -> NDArray[np.int32]:
+        return read_only(np.ascontiguousarray(steps[..., 1] * self.pitch + steps[..., 0], dtype=np.int32))
+
+    @cached_property
+    def offset_of_direction(self) -> NDArray[np.int32]:
+        """What to add to a site to get its neighbour, shape (2 orientations, directions)."""
+        return self._offsets(self.tessellation.step_of_direction)
+
+    @cached_property
+    def vertex_of_direction(self) -> NDArray[np.int32]:
+        """What to add to a site to get the lattice vertex passed, shape (2, directions); 0 on edge moves."""
+        rows = self.tessellation._rows
+        return self._offsets(np.array([[row[4] or (0, 0) for row in side] for side in rows], dtype=np.int32))
+
+    @cached_property
+    def ring_of_vertex(self) -> NDArray[np.int32]:
+        """What to add to the number of a lattice vertex to get the sites around it, clockwise, shape (6, 4 or 0,)."""
+        ring = _RINGS[self.tessellation.name] if self.tessellation.neighbourhood == "full" else []
+        return self._offsets(np.array(ring, dtype=np.int32).reshape(-1, 2))
+
+    def cell_to_site(self, cell: NDArray[np.int64]) -> NDArray[np.int32]:
+        """Return the sites of cells given by number (y * width + x)."""
+        y, x = np.divmod(cell, self.width)
+        return (self.origin + y * self.pitch + x).astype(np.int32)
+
+    def site_to_cell(self, site: NDArray[np.int32]) -> NDArray[np.int64]:
+        """Return the numbers of the cells at sites; the inverse of `cell_to_site`."""
+        y, x = np.divmod(site.astype(np.int64) - self.origin, self.pitch)
+        return np.asarray(y * self.width + x)
+
+    def cells_of(self, sites: NDArray[np.generic]) -> NDArray[np.generic]:
+        """Return the part of a padded array that belongs to cells, as a read-only (height, width) view."""
+        inner = sites[self.origin : self.origin + self.height * self.pitch]
+        return read_only(inner.reshape(self.height, self.pitch)[:, : self.width])
