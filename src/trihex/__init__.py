@@ -37,7 +37,7 @@ _MODULE_OF_NAME = {
     "TrihexError": "errors",
     "random_robots": "scenario",
 }
-__all__ = sorted(_MODULE_OF_NAME)  # noqa: PLE0605
+__all__ = sorted(_MODULE_OF_NAME)
 __version__ = "0.1.0"
 
 

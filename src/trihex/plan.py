@@ -186,8 +186,8 @@ class Plan(Record):
 class RobotSets(NamedTuple):
     """Numbers of the robots in each set of the paper during one step.
 
-    begin: not arrived before the step; filled: those of them that move in it; waiting: those that do not; final: arrived
-    before the step. begin = filled + waiting, and begin and final part the robots.
+    begin: not arrived before the step; filled: those of them that move in it; waiting: those that do not; final:
+    arrived before the step. begin = filled + waiting, and begin and final part the robots.
     """
 
     begin: NDArray[np.int64]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -111,16 +111,7 @@ class Scenario(Record):
 
     def with_robots(self, robots: Any, seed: int | None = None) -> Scenario:
         """Return the same scenario with other robots."""
-        return Scenario(
-            self.area,
-            self.destinations,
-            robots,
-            self.waiting_cost,
-            self.crossing,
-            self.corners,
-            self.destination_capacity,
-            seed,
-        )
+        return replace(self, robots=robots, seed=seed)
 
 
 def random_robots(area: Area, count: int, seed: int = 0, *, avoid: Any = ()) -> NDArray[np.int64]:

@@ -243,9 +243,10 @@ class Tessellation(Record):
 class Layout(Record):
     """How the cells of an area lie in the padded flat arrays of the kernels.
 
-    Cell (x, y) is *site* ``origin + y * pitch + x``. The padding counts as barrier, so kernels need no bounds: rows share
-    a margin of two sites, which the widest step of a triangle (two columns) never crosses. The pitch is odd for
+    Cell (x, y) is *site* ``origin + y * pitch + x``. The padding counts as barrier, so kernels need no bounds: rows
+    share a margin of two sites, which the widest step of a triangle (two columns) never crosses. The pitch is odd for
     triangles, even for hexagons and the origin always even, so that ``site & 1`` is the orientation of the cell.
+    (Squares have but one orientation; their tables hold it twice.)
 
     A lattice vertex bears the number of one of the cells around it: on triangles the north-pointing cell whose apex it
     is, on squares the cell to its south-east. These cells may lie in the padding, and no two vertices share one.
