@@ -9,6 +9,9 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from trihex.area import Area as Area
+    from trihex.audit import Audit as Audit
+    from trihex.audit import Conflict as Conflict
+    from trihex.audit import audit_plan as audit_plan
     from trihex.errors import AreaError as AreaError
     from trihex.errors import FormatError as FormatError
     from trihex.errors import MissingExtraError as MissingExtraError
@@ -25,6 +28,8 @@ if TYPE_CHECKING:
 _MODULE_OF_NAME = {
     "Area": "area",
     "AreaError": "errors",
+    "Audit": "audit",
+    "Conflict": "audit",
     "FormatError": "errors",
     "MissingExtraError": "errors",
     "Plan": "plan",
@@ -35,6 +40,7 @@ _MODULE_OF_NAME = {
     "TessellationError": "errors",
     "TooLargeError": "errors",
     "TrihexError": "errors",
+    "audit_plan": "audit",
     "random_robots": "scenario",
 }
 __all__ = sorted(_MODULE_OF_NAME)
