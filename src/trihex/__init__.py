@@ -12,7 +12,13 @@ if TYPE_CHECKING:
     from trihex.audit import Audit as Audit
     from trihex.audit import Conflict as Conflict
     from trihex.audit import audit_plan as audit_plan
+    from trihex.automaton import CellularAutomaton as CellularAutomaton
+    from trihex.automaton import LastGeneration as LastGeneration
+    from trihex.automaton import distance_generations as distance_generations
+    from trihex.automaton import make_distance_automaton as make_distance_automaton
+    from trihex.automaton import make_distance_configuration as make_distance_configuration
     from trihex.errors import AreaError as AreaError
+    from trihex.errors import AutomatonError as AutomatonError
     from trihex.errors import FormatError as FormatError
     from trihex.errors import MissingExtraError as MissingExtraError
     from trihex.errors import PlanError as PlanError
@@ -23,15 +29,24 @@ if TYPE_CHECKING:
     from trihex.plan import Plan as Plan
     from trihex.scenario import Scenario as Scenario
     from trihex.scenario import random_robots as random_robots
+    from trihex.schemes import DScheme as DScheme
+    from trihex.schemes import NScheme as NScheme
+    from trihex.schemes import make_d_scheme as make_d_scheme
+    from trihex.schemes import make_n_scheme as make_n_scheme
     from trihex.tessellation import Tessellation as Tessellation
 
 _MODULE_OF_NAME = {
     "Area": "area",
     "AreaError": "errors",
     "Audit": "audit",
+    "AutomatonError": "errors",
+    "CellularAutomaton": "automaton",
     "Conflict": "audit",
+    "DScheme": "schemes",
     "FormatError": "errors",
+    "LastGeneration": "automaton",
     "MissingExtraError": "errors",
+    "NScheme": "schemes",
     "Plan": "plan",
     "PlanError": "errors",
     "Scenario": "scenario",
@@ -41,6 +56,11 @@ _MODULE_OF_NAME = {
     "TooLargeError": "errors",
     "TrihexError": "errors",
     "audit_plan": "audit",
+    "distance_generations": "automaton",
+    "make_d_scheme": "schemes",
+    "make_distance_automaton": "automaton",
+    "make_distance_configuration": "automaton",
+    "make_n_scheme": "schemes",
     "random_robots": "scenario",
 }
 __all__ = sorted(_MODULE_OF_NAME)
