@@ -1,0 +1,40 @@
+"""Random small scenarios over all tessellations and rules, each from one number."""
+
+import numpy as np
+from hypothesis import strategies as st
+
+import trihex as th
+from trihex.scenario import CORNERS, CROSSINGS
+
+SHAPES = [("triangular", "full"), ("triangular", "edge"), ("hexagonal", "full"), ("square", "full"), ("square", "edge")]
+
+
+def random_scenario(seed, *, sides=(1, 8), most_filled=0.9, most_robots=1000, waiting_costs=(None, None, 0, 3, 15, 40)):
+    """Return a scenario drawn from `seed`: any shape and rule, up to `most_filled` of the free cells with a robot."""
+    rng = np.random.default_rng(seed)
+    shape, neighbourhood = SHAPES[rng.integers(len(SHAPES))]
+    tessellation = th.Tessellation(shape, neighbourhood, ("paper", "euclidean")[rng.integers(2)])
+    barriers = rng.random(rng.integers(sides[0], sides[1] + 1, size=2)) < rng.choice([0, 0.15, 0.3, 0.45])
+    barriers.flat[rng.integers(barriers.size)] = False
+    area = th.Area(tessellation, barriers)
+    free = np.flatnonzero(~barriers)
+    destinations = rng.choice(free, size=min(free.size, rng.choice([1, 1, 2, 4])), replace=False)
+    count = min(int(rng.random() * most_filled * free.size), most_robots)
+    waiting_cost = waiting_costs[rng.integers(len(waiting_costs))]
+    if waiting_cost is not None:
+        waiting_cost = waiting_cost * tessellation.edge_cost // 10
+    return th.Scenario(
+        area,
+        destinations,
+        rng.choice(free, size=count, replace=False),
+        waiting_cost=waiting_cost,
+        crossing=CROSSINGS[rng.integers(2)],
+        corners=CORNERS[rng.integers(3)],
+        destination_capacity=(None, 1, 2)[rng.integers(3)],
+        seed=seed,
+    )
+
+
+def scenarios(**limits):
+    """Hypothesis draws the number; what fails is shown as the scenario."""
+    return st.integers(0, 2**32 - 1).map(lambda seed: random_scenario(seed, **limits))
