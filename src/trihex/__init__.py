@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from trihex.errors import TessellationError as TessellationError
     from trihex.errors import TooLargeError as TooLargeError
     from trihex.errors import TrihexError as TrihexError
+    from trihex.frame import Frame as Frame
     from trihex.plan import Plan as Plan
     from trihex.scenario import Scenario as Scenario
     from trihex.scenario import random_robots as random_robots
@@ -44,6 +45,7 @@ _MODULE_OF_NAME = {
     "Conflict": "audit",
     "DScheme": "schemes",
     "FormatError": "errors",
+    "Frame": "frame",
     "LastGeneration": "automaton",
     "MissingExtraError": "errors",
     "NScheme": "schemes",

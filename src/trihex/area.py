@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from trihex.errors import AreaError, TrihexError
+from trihex.frame import Frame
 from trihex.record import Record, read_only
 from trihex.tessellation import Layout, Tessellation
 
@@ -30,6 +31,8 @@ class Area(Record):
         True where a cell is a barrier; row 0 is the north, column 0 the west.
     name : str
         For reports; a reader puts the name of the file here.
+    frame : Frame, optional
+        Where the area lies in the world; None if it is measured in cells only.
 
     Raises
     ------
@@ -46,6 +49,7 @@ class Area(Record):
     tessellation: Tessellation
     barriers: NDArray[np.bool_]
     name: str = ""
+    frame: Frame | None = None
 
     def __post_init__(self) -> None:
         if isinstance(self.tessellation, str):
@@ -86,8 +90,24 @@ class Area(Record):
         return self.tessellation.layout(self.height, self.width)
 
     def with_tessellation(self, tessellation: Tessellation | str) -> Area:
-        """Return the same rectangle of barriers, read as cells of another tessellation."""
-        return Area(tessellation, self.barriers, self.name)  # type: ignore[arg-type]
+        """Return the same rectangle of barriers, read as cells of another tessellation.
+
+        Raises
+        ------
+        AreaError
+            If the area has a frame: cells of another shape, or with more neighbours, would not fit the world.
+        """
+        if isinstance(tessellation, str):
+            tessellation = Tessellation(tessellation)
+        own = self.tessellation
+        if self.frame is not None and (
+            own.name != tessellation.name or own.direction_count < tessellation.direction_count
+        ):
+            raise AreaError(
+                f"tessellation must stay {own.name} {own.neighbourhood} in an area with a frame, not become "
+                f"{tessellation.name} {tessellation.neighbourhood}: read its file again with the other tessellation"
+            )
+        return replace(self, tessellation=tessellation)
 
     def is_barrier(self, cell: NDArray[np.int64]) -> NDArray[np.bool_]:
         """Tell for each cell number whether it is a barrier."""
@@ -113,6 +133,43 @@ class Area(Record):
         """Return (x, y) of cells given by number; the inverse of `xy_to_cell`."""
         y, x = np.divmod(np.asarray(cell, dtype=np.int64), self.width)
         return x, y
+
+    def metres_to_cell(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.int64]:
+        """Return the numbers of the cells in which points of the world lie.
+
+        Raises
+        ------
+        AreaError
+            If a point lies outside, or the area has no frame.
+        """
+        frame = self.metres
+        x, y = np.broadcast_arrays(np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64))
+        px, py = frame.metres_to_point(x, y)
+        width, height = self.tessellation.extent(self.height, self.width)
+        is_inside = (px >= 0) & (py >= 0) & (px <= width) & (py <= height)  # not so for nan
+        cell_x, cell_y = self.tessellation.cell_at_point(np.where(is_inside, px, -9), np.where(is_inside, py, -9))
+        outside = (cell_x < 0) | (cell_y < 0) | (cell_x >= self.width) | (cell_y >= self.height)
+        if np.any(outside):
+            at = np.unravel_index(int(np.argmax(outside)), outside.shape)
+            raise AreaError(f"point ({x[at]:g}, {y[at]:g}) metres lies outside the area")
+        return self.xy_to_cell(cell_x, cell_y)
+
+    def cell_to_metres(self, cell: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return where the centres of cells given by number lie in the world.
+
+        Raises
+        ------
+        AreaError
+            If the area has no frame.
+        """
+        return self.metres.centre_of_cell(self.tessellation, *self.cell_to_xy(cell))
+
+    @property
+    def metres(self) -> Frame:
+        """The frame, where there must be one; raises AreaError if there is none."""
+        if self.frame is None:
+            raise AreaError("the area is measured in cells, not in metres; give it a frame (cell_size)")
+        return self.frame
 
     def name_of_cell(self, cell: int) -> str:
         """Return ``(x, y)`` as text, for messages."""

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.area import Area, cells_from
+from trihex.clearance import check_cell_size, check_rules
 from trihex.errors import ScenarioError, check_choice
 from trihex.record import Record, read_only
 
@@ -37,14 +38,17 @@ class Scenario(Record):
         When a vertex move is open: always; if one way round the vertex meets no barrier; if no barrier touches the
         vertex. What lies outside the area counts as barrier.
     destination_capacity : int, optional
-        How many robots may enter one destination in one step. Default: any number.
+        How many robots may enter one destination in one step. Default: any number; 1 in an area with a frame.
     seed : int, optional
         What drew the robots, for reports.
 
     Raises
     ------
     ScenarioError
-        If a destination or robot lies outside or on a barrier, two robots share a cell, or a rule does not exist.
+        If a destination or robot lies outside or on a barrier, two robots share a cell, a rule does not exist, or the
+        rules let robots of the frame's radius overlap.
+    AreaError
+        If the cells are too small for robots of the frame's radius.
 
     Examples
     --------
@@ -71,8 +75,13 @@ class Scenario(Record):
         if self.waiting_cost is None:
             self._set("waiting_cost", area.tessellation.edge_cost)
         _check_whole("waiting_cost", self.waiting_cost, 0)
+        if self.destination_capacity is None and area.frame is not None:
+            self._set("destination_capacity", 1)
         if self.destination_capacity is not None:
             _check_whole("destination_capacity", self.destination_capacity, 1)
+        if area.frame is not None:
+            check_cell_size(area.tessellation, area.frame)
+            check_rules(area.tessellation, area.frame, self.crossing, self.destination_capacity)
         for parameter, one in (("destinations", "destination"), ("robots", "robot")):
             cells = cells_from(area, getattr(self, parameter), parameter, ScenarioError)
             _check_free(area, cells, one)
