@@ -5,6 +5,7 @@ Every error that a caller may want to catch descends from `TrihexError`, and fro
     TrihexError
     ├── TessellationError (ValueError)   a tessellation, neighbourhood or cost table that does not exist
     ├── AreaError         (ValueError)   barriers that make no area, a generator asked for the impossible
+    ├── AutomatonError    (ValueError)   a neighbourhood, states or a rule that make no cellular automaton
     ├── ScenarioError     (ValueError)   destinations, robots or rules that do not fit their area
     ├── PlanError         (ValueError)   a planner or an option of it that does not exist, actions that make no plan
     ├── FormatError       (ValueError)   a file that is not what it claims to be
@@ -30,6 +31,10 @@ class TessellationError(TrihexError, ValueError):
 
 class AreaError(TrihexError, ValueError):
     """Barriers that make no area, or a generator asked for the impossible."""
+
+
+class AutomatonError(TrihexError, ValueError):
+    """A neighbourhood, states or a rule that make no cellular automaton."""
 
 
 class ScenarioError(TrihexError, ValueError):
