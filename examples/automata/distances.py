@@ -1,0 +1,15 @@
+"""The distance rule of the paper on hexagons: each generation, up to the N-scheme (its Figures 7 and 9)."""
+
+import trihex as th
+from trihex.automaton import NOT_REACHED, OBSTACLE
+
+AREA = [".......", ".BBBB..", ".B..B..", ".B.B...", "......."]
+DESTINATION = (2, 2)
+
+barriers = [[letter == "B" for letter in row] for row in AREA]
+scenario = th.Scenario(th.Area("hexagonal", barriers), destinations=[DESTINATION])
+letters = {OBSTACLE: "B", NOT_REACHED: "."}
+for number, states in enumerate(th.distance_generations(scenario)):
+    print(f"generation {number}")
+    for row in states.tolist():
+        print("".join(f"{letters.get(state, state):>4}" for state in row))
