@@ -159,14 +159,27 @@ def test_progress_is_told_and_ends_complete():
 
 
 def nonsense(scenario, seed):
-    """Actions that no planner would dream of."""
-    rng = np.random.default_rng(seed)
-    directions = scenario.area.tessellation.direction_count
-    choices = [*range(directions), *[WAIT] * 3, *[JUMP] * int(rng.integers(2))]
-    actions = [rng.choice(choices, size=rng.integers(0, 7)).tolist() for _ in scenario.robots]
-    flat = [a for own in actions for a in own]
-    cells = scenario.area.cell_count
-    jumps = [(at, int(rng.integers(cells))) for at, action in enumerate(flat) if action == JUMP]
+    """Actions that no planner would dream of, though most of them stay within the area."""
+    rng, area = np.random.default_rng(seed), scenario.area
+    tessellation, jump_share = area.tessellation, rng.choice([0, 0, 0.1])
+    actions, jumps, count = [], [], 0
+    for cell in scenario.robots.tolist():
+        own = []
+        for _ in range(rng.integers(0, 7)):
+            x, y = cell % area.width, cell // area.width
+            steps = tessellation.step_of_direction[int(tessellation.orientation_of_cell(x, y))]
+            inside = [k for k, (i, j) in enumerate(steps) if 0 <= x + i < area.width and 0 <= y + j < area.height]
+            if rng.random() < jump_share:
+                own.append(JUMP)
+                cell = int(rng.integers(area.cell_count))
+                jumps.append((count, cell))
+            elif inside and rng.random() < 0.8:
+                own.append(int(rng.choice(inside)))
+                cell += int(steps[own[-1]] @ (1, area.width))
+            else:
+                own.append(int(rng.choice([WAIT, WAIT, rng.integers(tessellation.direction_count)])))
+            count += 1
+        actions.append(own)
     return plan_from_lists(scenario, actions, jumps=jumps)
 
 
