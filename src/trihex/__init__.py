@@ -26,6 +26,14 @@ if TYPE_CHECKING:
     from trihex.errors import TessellationError as TessellationError
     from trihex.errors import TooLargeError as TooLargeError
     from trihex.errors import TrihexError as TrihexError
+    from trihex.formats import read_area as read_area
+    from trihex.formats import read_plan as read_plan
+    from trihex.formats import read_scenario as read_scenario
+    from trihex.formats import read_starts as read_starts
+    from trihex.formats import write_area as write_area
+    from trihex.formats import write_plan as write_plan
+    from trihex.formats import write_scenario as write_scenario
+    from trihex.formats import write_starts as write_starts
     from trihex.frame import Frame as Frame
     from trihex.plan import Plan as Plan
     from trihex.scenario import Scenario as Scenario
@@ -64,6 +72,14 @@ _MODULE_OF_NAME = {
     "make_distance_configuration": "automaton",
     "make_n_scheme": "schemes",
     "random_robots": "scenario",
+    "read_area": "formats",
+    "read_plan": "formats",
+    "read_scenario": "formats",
+    "read_starts": "formats",
+    "write_area": "formats",
+    "write_plan": "formats",
+    "write_scenario": "formats",
+    "write_starts": "formats",
 }
 __all__ = sorted(_MODULE_OF_NAME)
 __version__ = "0.1.0"

@@ -67,6 +67,7 @@ class Plan(Record):
             first.shape != (robots + 1,)
             or first[0] != 0
             or first[-1] != self.actions.size
+            or first.min() < 0  # or the differences might overflow
             or (np.diff(first) < 0).any()
         ):
             raise PlanError(

@@ -1,0 +1,189 @@
+"""Plan as .npz: area, scenario and actions in one compressed file, a byte for each robot and step."""
+
+from __future__ import annotations
+
+import os
+import zipfile
+import zlib
+from io import BytesIO
+from math import prod
+from typing import Any
+
+import numpy as np
+from numpy.lib import format as npy
+
+from trihex.area import Area
+from trihex.errors import FormatError
+from trihex.formats.files import new_file, read_bytes
+from trihex.plan import Plan
+from trihex.scenario import Scenario
+from trihex.tessellation import Tessellation
+
+VERSION = 1
+# What a file may unpack to: an area of 10^9 cells and as many robot-steps.
+MAX_UNPACKED = 2**32
+# Kind of number and number of axes of each entry.
+_ENTRIES = {
+    "version": ("i", 0),
+    "tessellation": ("U", 0),
+    "neighbourhood": ("U", 0),
+    "costs": ("U", 0),
+    "area": ("U", 0),
+    "barriers": ("b", 2),
+    "destinations": ("i", 1),
+    "robots": ("i", 1),
+    "waiting_cost": ("i", 0),
+    "crossing": ("U", 0),
+    "corners": ("U", 0),
+    "destination_capacity": ("i", 0),  # 0: any number
+    "seed": ("i", 0),  # -1: none
+    "planner": ("U", 0),
+    "optimal": ("b", 0),
+    "actions": ("u", 1),
+    "first_action": ("i", 1),
+    "jumps": ("i", 2),
+}
+# What zipfile and numpy raise at bytes that make no sense.
+_DAMAGE = (
+    zipfile.BadZipFile,
+    zlib.error,
+    EOFError,
+    NotImplementedError,
+    RuntimeError,
+    ValueError,
+    SyntaxError,
+    TypeError,
+    OSError,
+)
+_LARGEST_ITEM = {"i": 8, "b": 1, "u": 1, "U": 4096}
+
+
+def write_plan_npz(plan: Plan, path: str | os.PathLike[str]) -> None:
+    """Write a plan with all that is needed to judge it; `numpy.load` opens it without pickle.
+
+    The same plan gives the same bytes.
+    """
+    scenario, area, tessellation = plan.scenario, plan.scenario.area, plan.scenario.area.tessellation
+    arrays: dict[str, Any] = {
+        "version": VERSION,
+        "tessellation": tessellation.name,
+        "neighbourhood": tessellation.neighbourhood,
+        "costs": tessellation.costs,
+        "area": area.name,
+        "barriers": area.barriers,
+        "destinations": scenario.destinations,
+        "robots": scenario.robots,
+        "waiting_cost": scenario.waiting_cost,
+        "crossing": scenario.crossing,
+        "corners": scenario.corners,
+        "destination_capacity": scenario.destination_capacity or 0,
+        "seed": -1 if scenario.seed is None else scenario.seed,
+        "planner": plan.planner,
+        "optimal": plan.optimal,
+        "actions": plan.actions,
+        "first_action": plan.first_action,
+        "jumps": plan.jumps,
+    }
+    with new_file(path) as part, open(part, "wb") as file:
+        np.savez_compressed(file, **arrays)
+
+
+def read_plan_npz(path: str | os.PathLike[str], content: bytes | None = None) -> Plan:
+    """Return the plan of a file that `write_plan_npz` made.
+
+    Nothing in the file is executed, and no entry is unpacked before its size and kind are found to be in order.
+
+    Raises
+    ------
+    FormatError
+        If the file is damaged, of another version, too large, or its actions lead out of the area.
+    ScenarioError, PlanError, ...
+        If its parts do not fit each other.
+    OSError
+        If the file cannot be read.
+    """
+    content = read_bytes(path) if content is None else content
+    try:
+        with zipfile.ZipFile(BytesIO(content)) as archive:
+            arrays = _unpack(archive, path)
+    except FormatError:
+        raise
+    except _DAMAGE as error:
+        raise FormatError(f"{path}: is no whole .npz file: {error}") from None
+    if (version := int(arrays["version"])) != VERSION:
+        raise FormatError(f"{path}: version must be {VERSION}, not {version}")
+    text = {name: str(arrays[name]) for name, (kind, _) in _ENTRIES.items() if kind == "U"}
+    seed, capacity = int(arrays["seed"]), int(arrays["destination_capacity"])
+    scenario = Scenario(
+        Area(
+            Tessellation(text["tessellation"], text["neighbourhood"], text["costs"]), arrays["barriers"], text["area"]
+        ),
+        arrays["destinations"],
+        arrays["robots"],
+        int(arrays["waiting_cost"]),
+        text["crossing"],
+        text["corners"],
+        None if capacity == 0 else capacity,
+        None if seed == -1 else seed,
+    )
+    plan = Plan(
+        scenario,
+        arrays["actions"],
+        arrays["first_action"],
+        text["planner"],
+        bool(arrays["optimal"]),
+        arrays["jumps"],
+    )
+    _check_inside(plan, path)
+    return plan
+
+
+def _unpack(archive: zipfile.ZipFile, path: object) -> dict[str, Any]:
+    """Return the entries, each looked at before it is unpacked."""
+    infos = {info.filename.removesuffix(".npy"): info for info in archive.infolist()}
+    for wrong, rule in ((_ENTRIES.keys() - infos, "must have"), (infos.keys() - _ENTRIES, "must not have")):
+        if wrong:
+            raise FormatError(f"{path}: a plan {rule} the entry {min(wrong)!r}")
+    unpacked = sum(info.file_size for info in infos.values())
+    if unpacked > MAX_UNPACKED:
+        raise FormatError(f"{path}: must unpack to at most {MAX_UNPACKED} bytes, not {unpacked}")
+    arrays = {}
+    for name, (kind, axes) in _ENTRIES.items():
+        with archive.open(infos[name]) as file:
+            if npy.read_magic(file) != (1, 0):
+                raise FormatError(f"{path}: entry {name!r} has an unknown npy version")
+            shape, is_fortran, dtype = npy.read_array_header_1_0(file)
+            size = prod(shape) * dtype.itemsize
+            if dtype.kind != kind or dtype.itemsize > _LARGEST_ITEM[kind] or len(shape) != axes or is_fortran:
+                raise FormatError(
+                    f"{path}: entry {name!r} must be of kind {kind} with {axes} axes, not {dtype} {shape}"
+                )
+            raw = file.read(size + 1)
+        if len(raw) != size:
+            raise FormatError(f"{path}: entry {name!r} must be {size} bytes long, not {len(raw)}")
+        # A byte other than 0 and 1 makes a bool that kernels misread.
+        items = np.frombuffer(raw, dtype=np.uint8) != 0 if kind == "b" else np.frombuffer(raw, dtype=dtype)
+        arrays[name] = items.reshape(shape)
+    return arrays
+
+
+def _check_inside(plan: Plan, path: object) -> None:
+    """Raise if an action leads out of the area: no kernel must ever follow it."""
+    from trihex.kernels.escape import find_escape
+
+    layout = plan.scenario.area.layout
+    escape = find_escape(
+        layout.cell_to_site(plan.scenario.robots),
+        plan.actions,
+        plan.first_action,
+        layout.offset_of_direction,
+        *plan.jump_tables,
+        layout.origin,
+        layout.pitch,
+        layout.height,
+        layout.width,
+    )
+    if escape >= 0:
+        robot = int(np.searchsorted(plan.first_action, escape, side="right")) - 1
+        step = escape - int(plan.first_action[robot]) + 1
+        raise FormatError(f"{path}: robot {robot} leaves the area at step {step}")

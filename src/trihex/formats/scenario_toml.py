@@ -1,0 +1,167 @@
+"""Scenario as TOML: one file that names area, tessellation, rules, destinations, robots and planner."""
+
+from __future__ import annotations
+
+import json
+import os
+import tomllib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trihex.area import Area, cells_from
+from trihex.errors import FormatError, ScenarioError, TrihexError
+from trihex.formats.draft import Draft
+from trihex.formats.files import check_text, new_file, read_bytes
+from trihex.formats.letters import parse_letters
+from trihex.formats.scenario_schema import AreaTable, ScenarioTable, check_document
+from trihex.formats.starts_csv import read_starts
+from trihex.scenario import Scenario
+from trihex.tessellation import Tessellation
+
+Result = TypeVar("Result")
+MAX_BYTES = 2**26  # tomllib takes some 30 times as much while it reads
+
+
+def read_scenario_toml(
+    path: str | os.PathLike[str],
+    read_area_draft: Callable[[Path, Tessellation], Draft],
+    content: bytes | None = None,
+) -> Draft:
+    """Return the draft that a file describes.
+
+    Parameters
+    ----------
+    path : path
+        Other files are named relative to this one.
+    read_area_draft : function
+        Reads the file that ``area.path`` names.
+    content : bytes, optional
+        The content, where it has been read already.
+
+    Raises
+    ------
+    FormatError
+        With a line for each mistake: path of the key, rule, value, near name.
+    OSError
+        If the file cannot be read.
+    """
+    content = read_bytes(path, MAX_BYTES) if content is None else content
+    if len(content) > MAX_BYTES:
+        raise FormatError(f"{path}: must be at most {MAX_BYTES} bytes long, not {len(content)}")
+    try:
+        document = tomllib.loads(check_text(content, path).decode())
+    except RecursionError:
+        raise FormatError(f"{path}: is nested too deeply") from None
+    except FormatError:
+        raise
+    except ValueError as error:
+        raise FormatError(f"{path}: is no TOML: {error}") from None
+    table, mistakes = check_document(document)
+    if table is not None and not mistakes:
+        draft = _draft_of(table, Path(path), read_area_draft, mistakes)
+        if draft is not None and not mistakes:
+            return draft
+    raise FormatError("\n".join(f"{path}: {mistake}" for mistake in mistakes))
+
+
+def _draft_of(
+    table: ScenarioTable,
+    path: Path,
+    read_area_draft: Callable[[Path, Tessellation], Draft],
+    mistakes: list[str],
+) -> Draft | None:
+    """Return what the table describes; add to `mistakes` what cannot be had."""
+
+    def attempt(key: str, work: Callable[[], Result]) -> Result | None:
+        try:
+            return work()
+        except (TrihexError, OSError) as error:
+            text = f"{error.strerror}: {error.filename}" if isinstance(error, OSError) else str(error)
+            mistakes.append(f"{key}: {text.removeprefix('cells: ')}")
+            return None
+
+    draft = attempt("area", lambda: _area_draft(table.area, path, read_area_draft))
+    if draft is None:
+        return None
+    area, robots = draft.area, table.robots
+
+    def cells(places: list[list[int]] | None) -> NDArray[np.int64] | None:
+        return None if places is None else cells_from(area, places, "cells", ScenarioError)
+
+    destinations = attempt("destinations", lambda: cells(table.destinations))
+    starts = attempt("robots.cells", lambda: cells(robots.cells))
+    if (file := robots.file) is not None:
+        starts = attempt("robots.file", lambda: read_starts(path.parent / file, area))
+    has_robots = starts is not None or robots.random is not None
+    return Draft(
+        area,
+        draft.destinations if destinations is None else destinations,
+        starts if has_robots else draft.robots,
+        robots.random,
+        robots.seed,
+        **table.rules.model_dump(),
+        planner=table.planner.name,
+        planner_options=table.planner.options,
+    )
+
+
+def _area_draft(table: AreaTable, path: Path, read_area_draft: Callable[[Path, Tessellation], Draft]) -> Draft:
+    tessellation = Tessellation(table.tessellation, table.neighbourhood, table.costs)
+    if table.path is not None:
+        draft = read_area_draft(path.parent / table.path, tessellation)
+    else:
+        draft = parse_letters("\n".join(table.rows or []).encode(), "area.rows", tessellation)
+    name = table.name or (draft.area.name if table.path is not None else path.stem)
+    return Draft(Area(tessellation, draft.area.barriers, name), draft.destinations, draft.robots)
+
+
+def write_scenario_toml(
+    scenario: Scenario, path: str | os.PathLike[str], planner: str = "", planner_options: dict[str, Any] | None = None
+) -> None:
+    """Write a scenario with all that is needed to plan it again: rows of the area, cells of robots and destinations."""
+    area, tessellation = scenario.area, scenario.area.tessellation
+    rows = ["".join("B" if barrier else "." for barrier in row) for row in area.barriers.tolist()]
+    lines = [
+        f"destinations = {_cells(area, scenario.destinations)}",
+        "",
+        "[area]",
+        f"name = {_text(area.name)}" if area.name else "",
+        f"tessellation = {_text(tessellation.name)}",
+        f"neighbourhood = {_text(tessellation.neighbourhood)}",
+        f"costs = {_text(tessellation.costs)}",
+        "rows = [",
+        *(f"  {_text(row)}," for row in rows),
+        "]",
+        "",
+        "[rules]",
+        f"waiting_cost = {scenario.waiting_cost}",
+        f"crossing = {_text(scenario.crossing)}",
+        f"corners = {_text(scenario.corners)}",
+        f"destination_capacity = {scenario.destination_capacity}" if scenario.destination_capacity else "",
+        "",
+        "[robots]",
+        f"cells = {_cells(area, scenario.robots)}",
+        f"seed = {scenario.seed}" if scenario.seed is not None else "",
+    ]
+    if planner:
+        lines += ["", "[planner]", f"name = {_text(planner)}"]
+        if planner_options:
+            pairs = ", ".join(f"{_text(key)} = {json.dumps(value)}" for key, value in planner_options.items())
+            lines.append(f"options = {{ {pairs} }}")
+    kept = [line for line, after in zip(lines, [*lines[1:], "end"], strict=True) if line or after.startswith("[")]
+    with new_file(path) as part:
+        part.write_text("\n".join([*kept, ""]), encoding="utf-8")
+
+
+def _cells(area: Area, cells: NDArray[np.int64]) -> str:
+    x, y = area.cell_to_xy(cells)
+    return json.dumps(np.stack([x, y], axis=1).tolist())
+
+
+def _text(value: str) -> str:
+    """Return a TOML string: JSON's escapes are TOML's, but for DEL."""
+    return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")

@@ -1,0 +1,192 @@
+"""Plans in files: what is written is read again, and what no robot can do is kept for the judge."""
+
+import csv
+from contextlib import suppress
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+
+from tests.formats.strategies import walks
+from trihex import Area, FormatError, Plan, Scenario, read_plan, write_plan
+from trihex.formats.plan_npz import write_plan_npz
+from trihex.plan import JUMP, WAIT, plan_from_lists
+
+HEADER = "robot,step,x,y,action,time"
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    return tmp_path_factory.mktemp("plans")
+
+
+@settings(deadline=None, max_examples=50)
+@given(plan=walks())
+def test_npz_round_trip(folder, plan):
+    path = folder / "plan.npz"
+    write_plan(plan, path)
+    assert read_plan(path) == plan
+    before = path.read_bytes()
+    write_plan(plan, path)
+    assert path.read_bytes() == before
+
+
+@settings(deadline=None, max_examples=50)
+@given(plan=walks())
+def test_csv_round_trip(folder, plan):
+    path = folder / "plan.csv"
+    write_plan(plan, path)
+    again = read_plan(path, plan.scenario.with_robots([]))
+    assert np.array_equal(again.scenario.robots, plan.scenario.robots)
+    assert np.array_equal(again.actions, plan.actions)
+    assert np.array_equal(again.first_action, plan.first_action)
+    assert again.jumps.size == 0
+
+
+@settings(deadline=None, max_examples=50)
+@given(plan=walks())
+def test_csv_says_what_the_plan_does(folder, plan):
+    """The rows of a slow writer that follows the tables of the tessellation."""
+    path = folder / "plan.csv"
+    write_plan(plan, path)
+    with open(path, newline="") as file:
+        assert list(csv.reader(file)) == [HEADER.split(","), *slow_rows(plan)]
+
+
+def slow_rows(plan: Plan):
+    scenario, area = plan.scenario, plan.scenario.area
+    for robot, cell in enumerate(scenario.robots.tolist()):
+        y, x = divmod(cell, area.width)
+        time = 0
+        yield [str(v) for v in (robot, 0, x, y, "start", 0)]
+        for step, action in enumerate(plan.actions[slice(*plan.first_action[robot : robot + 2])].tolist(), 1):
+            name = "wait"
+            time += scenario.waiting_cost
+            if action != WAIT:
+                side = int(area.tessellation.orientation_of_cell(x, y))
+                dx, dy = area.tessellation.step_of_direction[side, action].tolist()
+                name = area.tessellation.direction_names[side][action]
+                x, y, time = (
+                    x + dx,
+                    y + dy,
+                    time - scenario.waiting_cost + int(area.tessellation.cost_of_direction[action]),
+                )
+            yield [str(v) for v in (robot, step, x, y, name, time)]
+
+
+def test_rows_in_any_order(tmp_path):
+    path = tmp_path / "p.csv"
+    path.write_text(f"{HEADER}\n1,1,1,1,E,10\n0,0,0,0,start,0\n1,0,0,1,start,0\n0,1,0,0,wait,10\n0,2,1,0,E,20\r\n\n")
+    plan = read_plan(path, Scenario(Area("square", np.zeros((2, 2))), [(1, 0), (1, 1)]))
+    assert plan.scenario.robots.tolist() == [0, 2]
+    assert plan.actions.tolist() == [WAIT, 1, 1]
+    assert plan.first_action.tolist() == [0, 2, 3]
+
+
+def test_a_move_that_is_none_becomes_a_jump(tmp_path):
+    """Too far, not where the word says, and a word of the other orientation."""
+    path = tmp_path / "p.csv"
+    scenario = Scenario(Area("triangular", np.zeros((4, 8))), [(7, 3)])
+    rows = ["0,0,0,0,start,0", "0,1,7,0,EE,14", "0,2,6,0,E,24", "0,3,6,1,S,34", "0,4,6,1,wait,44", "0,5,6,2,NNE,58"]
+    path.write_text("\n".join([HEADER, *rows]))
+    plan = read_plan(path, scenario)
+    assert plan.actions.tolist() == [JUMP, JUMP, 2, WAIT, JUMP]
+    assert plan.jumps.tolist() == [[0, 7], [1, 6], [4, 22]]
+    again = tmp_path / "again.csv"
+    write_plan(plan, again)
+    assert "0,1,7,0,jump,0\n" in again.read_text()
+    assert read_plan(again, scenario) == plan
+    write_plan(plan, tmp_path / "again.npz")
+    assert read_plan(tmp_path / "again.npz") == plan
+
+
+BAD_CSV = {
+    "robot,step,x,y,time\n": "line 1: the header must be 'robot,step,x,y,action,time'",
+    f"{HEADER}\n0,0,0,0,start\n": "line 2: there must be 6 columns .*, not 5",
+    f"{HEADER}\n0,0,0,0,start,0,1\n": "line 2: there must be 6 columns .*, not 7",
+    f"{HEADER}\n0,0,0,0,start,0\n\n0,1,0,0,wait,10\n": "line 3: the line is empty",
+    f"{HEADER}\n0,0,0.5,0,start,0\n": "line 2: x must be a whole number of at most 18 digits, not '0.5'",
+    f"{HEADER}\n0,0,,0,start,0\n": "line 2: x must be a whole number of at most 18 digits, not ''",
+    f"{HEADER}\n0,0,{10**30},0,start,0\n": "line 2: x must be a whole number of at most 18 digits",
+    f"{HEADER}\n0,0,0,0,start,0\n0,1,0,0,wat,10\n": "line 3: action must be .*, not 'wat'; did you mean 'wait'",
+    f"{HEADER}\n0,0,0,0,start,0\n0,1,9,0,E,10\n": r"line 3: cell \(9, 0\) lies outside the area: x is 0..2",
+    f"{HEADER}\n0,0,0,0,start,0\n0,1,-1,0,W,10\n": r"line 3: cell \(-1, 0\) lies outside",
+    f"{HEADER}\n0,0,0,0,start,0\n0,2,1,0,E,10\n": "line 3: robot 0 lacks step 1; here is step 2",
+    f"{HEADER}\n0,0,0,0,start,0\n0,0,0,0,start,0\n": "line 3: robot 0 has step 0 twice",
+    f"{HEADER}\n0,0,0,0,start,0\n2,0,1,0,start,0\n": "line 3: .* robot 1 must come next, not 2",
+    f"{HEADER}\n-1,0,0,0,start,0\n": "line 2: .* robot 0 must come next, not -1",
+    f"{HEADER}\n0,1,0,0,start,0\n": "line 2: robot 0 must begin with step 0, not 1",
+    f"{HEADER}\n0,0,0,0,wait,0\n": "line 2: action must be 'start' at step 0, and only there, not 'wait'",
+    f"{HEADER}\n0,0,0,0,start,0\n0,1,0,0,start,0\n": "line 3: action must be 'start' at step 0, and only there",
+    f"{HEADER}\n0,0,0,0,start,5\n": "line 2: time must be 0 at step 0, not 5",
+    f"{HEADER}\n0,0,0,0,start,0\n0,1,1,0,E,1000\n": "line 3: time must rise by 10 for 'E', not by 1000",
+    f"{HEADER}\n0,0,0,0,start,0\n0,1,0,0,wait,3\n": "line 3: time must rise by 10 for 'wait', not by 3",
+}
+
+
+@pytest.mark.parametrize("text", BAD_CSV)
+def test_bad_csv_names_the_line(tmp_path, text):
+    path = tmp_path / "p.csv"
+    path.write_text(text)
+    with pytest.raises(FormatError, match=f"p.csv: {BAD_CSV[text]}"):
+        read_plan(path, Scenario(Area("square", np.zeros((2, 3))), [(2, 0)]))
+
+
+def test_csv_needs_a_scenario(tmp_path):
+    path = tmp_path / "p.csv"
+    path.write_text(f"{HEADER}\n0,0,0,0,start,0\n")
+    with pytest.raises(FormatError, match="does not hold its area"):
+        read_plan(path)
+
+
+@pytest.fixture
+def entries(tmp_path):
+    """Return the entries of a small good plan."""
+    scenario = Scenario(Area("hexagonal", np.zeros((2, 3))), [(2, 0)], [(0, 0), (0, 1)])
+    write_plan_npz(plan_from_lists(scenario, [[2, 1], []]), tmp_path / "good.npz")
+    with np.load(tmp_path / "good.npz") as file:
+        return dict(file)
+
+
+BAD_ENTRIES = {
+    "version must be 1, not 9": {"version": 9},
+    "must have the entry 'robots'": {"robots": None},
+    "must not have the entry 'extra'": {"extra": 1},
+    "entry 'actions' must be of kind u with 1 axes, not float64": {"actions": np.zeros(2)},
+    "entry 'actions' must be of kind u with 1 axes, not uint16": {"actions": np.zeros(2, dtype=np.uint16)},
+    "entry 'jumps' must be of kind i with 2 axes, not object": {"jumps": np.array([{}], dtype=object)},
+    "robot 0 leaves the area at step 1": {"actions": np.array([0, 1], dtype=np.uint8)},
+    "first_action must rise from 0": {"first_action": np.array([0, 2**63 - 1, 2])},
+    "first_action must rise": {"first_action": np.array([0, 3, 2])},
+    "tessellation must be one of": {"tessellation": "pentagonal"},
+    "robot 1 must stand on a free cell": {"barriers": np.array([[0, 0, 0], [1, 0, 0]], dtype=bool)},
+}
+
+
+@pytest.mark.parametrize("message", BAD_ENTRIES)
+def test_bad_npz(tmp_path, entries, message):
+    changed = {name: value for name, value in {**entries, **BAD_ENTRIES[message]}.items() if value is not None}
+    np.savez_compressed(tmp_path / "bad.npz", **changed)
+    with pytest.raises(ValueError, match=message):
+        read_plan(tmp_path / "bad.npz")
+
+
+def test_damaged_npz(tmp_path, entries):
+    content = (tmp_path / "good.npz").read_bytes()
+    path = tmp_path / "bad.npz"
+    for damaged in (content[:-40], content[: len(content) // 2], b"PK\x03\x04" + bytes(100)):
+        path.write_bytes(damaged)
+        with pytest.raises(FormatError, match=r"is no whole \.npz file"):
+            read_plan(path)
+    for at in range(0, len(content), 7):  # a flipped byte is noticed or does no harm
+        path.write_bytes(content[:at] + bytes([content[at] ^ 0x55]) + content[at + 1 :])
+        with suppress(ValueError):
+            assert read_plan(path).scenario.robot_count == 2
+
+
+def test_a_bomb_is_refused_before_it_is_unpacked(tmp_path, entries, monkeypatch):
+    monkeypatch.setattr("trihex.formats.plan_npz.MAX_UNPACKED", 2**20)
+    entries["barriers"] = np.zeros((1025, 1024), dtype=bool)
+    np.savez_compressed(tmp_path / "bomb.npz", **entries)
+    with pytest.raises(FormatError, match="must unpack to at most 1048576 bytes"):
+        read_plan(tmp_path / "bomb.npz")
