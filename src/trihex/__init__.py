@@ -17,6 +17,10 @@ if TYPE_CHECKING:
     from trihex.automaton import distance_generations as distance_generations
     from trihex.automaton import make_distance_automaton as make_distance_automaton
     from trihex.automaton import make_distance_configuration as make_distance_configuration
+    from trihex.bounds import LowerBound as LowerBound
+    from trihex.bounds import distance_bound as distance_bound
+    from trihex.bounds import make_lower_bound as make_lower_bound
+    from trihex.bounds import slot_bound as slot_bound
     from trihex.errors import AreaError as AreaError
     from trihex.errors import AutomatonError as AutomatonError
     from trihex.errors import FormatError as FormatError
@@ -35,7 +39,15 @@ if TYPE_CHECKING:
     from trihex.formats import write_scenario as write_scenario
     from trihex.formats import write_starts as write_starts
     from trihex.frame import Frame as Frame
+    from trihex.generators import GENERATORS as GENERATORS
+    from trihex.generators import make_caves_area as make_caves_area
+    from trihex.generators import make_maze_area as make_maze_area
+    from trihex.generators import make_random_area as make_random_area
+    from trihex.generators import make_rooms_area as make_rooms_area
+    from trihex.generators import make_warehouse_area as make_warehouse_area
     from trihex.plan import Plan as Plan
+    from trihex.report import Report as Report
+    from trihex.report import make_report as make_report
     from trihex.scenario import Scenario as Scenario
     from trihex.scenario import random_robots as random_robots
     from trihex.schemes import DScheme as DScheme
@@ -54,11 +66,14 @@ _MODULE_OF_NAME = {
     "DScheme": "schemes",
     "FormatError": "errors",
     "Frame": "frame",
+    "GENERATORS": "generators",
     "LastGeneration": "automaton",
+    "LowerBound": "bounds",
     "MissingExtraError": "errors",
     "NScheme": "schemes",
     "Plan": "plan",
     "PlanError": "errors",
+    "Report": "report",
     "Scenario": "scenario",
     "ScenarioError": "errors",
     "Tessellation": "tessellation",
@@ -66,16 +81,25 @@ _MODULE_OF_NAME = {
     "TooLargeError": "errors",
     "TrihexError": "errors",
     "audit_plan": "audit",
+    "distance_bound": "bounds",
     "distance_generations": "automaton",
+    "make_caves_area": "generators",
     "make_d_scheme": "schemes",
     "make_distance_automaton": "automaton",
     "make_distance_configuration": "automaton",
+    "make_lower_bound": "bounds",
+    "make_maze_area": "generators",
     "make_n_scheme": "schemes",
+    "make_random_area": "generators",
+    "make_report": "report",
+    "make_rooms_area": "generators",
+    "make_warehouse_area": "generators",
     "random_robots": "scenario",
     "read_area": "formats",
     "read_plan": "formats",
     "read_scenario": "formats",
     "read_starts": "formats",
+    "slot_bound": "bounds",
     "write_area": "formats",
     "write_plan": "formats",
     "write_scenario": "formats",

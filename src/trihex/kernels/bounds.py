@@ -1,0 +1,61 @@
+"""Numbers of steps, and queues at the destinations."""
+
+from numba import njit, types
+
+from trihex.kernels.signatures import IN_I32, IN_U16, OUT_BOOL, OUT_I32, OUT_I64, TABLE_I32
+
+NOT_REACHED = 2**31 - 1
+
+
+@njit(types.int64(IN_U16, TABLE_I32, OUT_I32, OUT_I32, types.int64, types.int64, types.int64), cache=True, nogil=True)
+def count_steps(moves, offset, steps, queue, head, tail, budget):
+    """Go on with a search in breadth from ``queue[head:tail]``, at most `budget` sites; return the new tail."""
+    for at in range(head, min(tail, head + budget)):
+        site = queue[at]
+        bits = moves[site]
+        for k in range(offset.shape[1]):
+            if bits >> k & 1:
+                target = site + offset[site & 1, k]
+                if steps[target] == NOT_REACHED:
+                    steps[target] = steps[site] + 1
+                    queue[tail] = target
+                    tail += 1
+    return tail
+
+
+@njit(types.int64(OUT_I64, types.int64), cache=True, nogil=True)
+def queue_up(slots, width):
+    """Delay sorted `slots` until each number occurs at most `width` times; return their sum."""
+    total = 0
+    for i in range(len(slots)):
+        if i >= width and slots[i] <= slots[i - width]:
+            slots[i] = slots[i - width] + 1
+        total += slots[i]
+    return total
+
+
+@njit(types.void(IN_U16, TABLE_I32, IN_I32, OUT_I32, OUT_I32, OUT_BOOL, OUT_I64, types.int64), cache=True, nogil=True)
+def spread_costs(moves, offset, cost, least, queue, is_queued, state, budget):
+    """Go on with the least sums of `cost` (0 is allowed) by correcting labels, at most `budget` sites.
+
+    The ring buffer `queue` holds ``state[1]`` sites from ``state[0]`` on.
+    """
+    size = len(queue)
+    head, count = state[0], state[1]
+    while count > 0 and budget > 0:
+        budget -= 1
+        site = queue[head]
+        head = head + 1 if head + 1 < size else 0
+        count -= 1
+        is_queued[site] = False
+        bits = moves[site]
+        for k in range(len(cost)):
+            if bits >> k & 1:
+                target = site + offset[site & 1, k]
+                if least[site] + cost[k] < least[target]:
+                    least[target] = least[site] + cost[k]
+                    if not is_queued[target]:
+                        is_queued[target] = True
+                        queue[(head + count) % size] = target
+                        count += 1
+    state[0], state[1] = head, count
