@@ -45,7 +45,20 @@ if TYPE_CHECKING:
     from trihex.generators import make_random_area as make_random_area
     from trihex.generators import make_rooms_area as make_rooms_area
     from trihex.generators import make_warehouse_area as make_warehouse_area
+    from trihex.movie import write_animation as write_animation
+    from trihex.picture import Picture as Picture
+    from trihex.picture import picture_of_area as picture_of_area
+    from trihex.picture import picture_of_d_scheme as picture_of_d_scheme
+    from trihex.picture import picture_of_generation as picture_of_generation
+    from trihex.picture import picture_of_n_scheme as picture_of_n_scheme
+    from trihex.picture import picture_of_plan as picture_of_plan
     from trihex.plan import Plan as Plan
+    from trihex.plotting import draw_area as draw_area
+    from trihex.plotting import draw_arrivals as draw_arrivals
+    from trihex.plotting import draw_comparison as draw_comparison
+    from trihex.plotting import draw_d_scheme as draw_d_scheme
+    from trihex.plotting import draw_n_scheme as draw_n_scheme
+    from trihex.plotting import draw_plan as draw_plan
     from trihex.report import Report as Report
     from trihex.report import make_report as make_report
     from trihex.scenario import Scenario as Scenario
@@ -71,6 +84,7 @@ _MODULE_OF_NAME = {
     "LowerBound": "bounds",
     "MissingExtraError": "errors",
     "NScheme": "schemes",
+    "Picture": "picture",
     "Plan": "plan",
     "PlanError": "errors",
     "Report": "report",
@@ -83,6 +97,12 @@ _MODULE_OF_NAME = {
     "audit_plan": "audit",
     "distance_bound": "bounds",
     "distance_generations": "automaton",
+    "draw_area": "plotting",
+    "draw_arrivals": "plotting",
+    "draw_comparison": "plotting",
+    "draw_d_scheme": "plotting",
+    "draw_n_scheme": "plotting",
+    "draw_plan": "plotting",
     "make_caves_area": "generators",
     "make_d_scheme": "schemes",
     "make_distance_automaton": "automaton",
@@ -94,12 +114,18 @@ _MODULE_OF_NAME = {
     "make_report": "report",
     "make_rooms_area": "generators",
     "make_warehouse_area": "generators",
+    "picture_of_area": "picture",
+    "picture_of_d_scheme": "picture",
+    "picture_of_generation": "picture",
+    "picture_of_n_scheme": "picture",
+    "picture_of_plan": "picture",
     "random_robots": "scenario",
     "read_area": "formats",
     "read_plan": "formats",
     "read_scenario": "formats",
     "read_starts": "formats",
     "slot_bound": "bounds",
+    "write_animation": "movie",
     "write_area": "formats",
     "write_plan": "formats",
     "write_scenario": "formats",
