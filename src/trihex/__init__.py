@@ -68,6 +68,7 @@ if TYPE_CHECKING:
     from trihex.schemes import make_d_scheme as make_d_scheme
     from trihex.schemes import make_n_scheme as make_n_scheme
     from trihex.tessellation import Tessellation as Tessellation
+    from trihex.formats.report_json import write_report as write_report
 
 _MODULE_OF_NAME = {
     "Area": "area",
@@ -128,6 +129,7 @@ _MODULE_OF_NAME = {
     "write_animation": "movie",
     "write_area": "formats",
     "write_plan": "formats",
+    "write_report": "formats.report_json",
     "write_scenario": "formats",
     "write_starts": "formats",
 }

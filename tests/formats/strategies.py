@@ -4,6 +4,7 @@ import numpy as np
 from hypothesis import strategies as st
 
 from trihex.area import Area
+from trihex.frame import Frame
 from trihex.plan import WAIT, Plan, plan_from_lists
 from trihex.scenario import CORNERS, CROSSINGS, Scenario
 from trihex.tessellation import COSTS, NEIGHBOURHOODS, TESSELLATIONS, Tessellation
@@ -20,6 +21,15 @@ def areas(draw: st.DrawFn, *, least_free: int = 0) -> Area:
     barriers = np.array(draw(st.lists(st.booleans(), min_size=height * width, max_size=height * width)))
     barriers[:least_free] = False
     return Area(tessellation, barriers.reshape(height, width))
+
+
+FRAMES = st.builds(
+    Frame,
+    st.floats(0.001, 1e9),
+    st.tuples(st.floats(-1e9, 1e9), st.floats(-1e9, 1e9)),
+    st.floats(-9, 9),
+    st.just(0.0),  # any larger radius forbids small cells and many rules
+)
 
 
 @st.composite

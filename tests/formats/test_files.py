@@ -75,7 +75,7 @@ def test_a_pipe_is_read(tmp_path):
     [
         (b"", "the file is empty"),
         (b"..\xff.", "must be UTF-8 text; byte 0xff at position 2 is none"),
-        (b"\x89PNG\r\n\x1a\n", "is a PNG image, which trihex cannot read"),
+        (b"\x1f\x8b\x08", "is gzip, which trihex cannot read"),
         (b"x,y\n1,2\n", "must hold an area"),
     ],
 )

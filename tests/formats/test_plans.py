@@ -2,14 +2,17 @@
 
 import csv
 from contextlib import suppress
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
+from hypothesis import strategies as st
 
-from tests.formats.strategies import walks
-from trihex import Area, FormatError, Plan, Scenario, read_plan, write_plan
+from tests.formats.strategies import FRAMES, NAMES, walks
+from trihex import Area, FormatError, Plan, Scenario, Tessellation, read_plan, read_scenario, write_plan, write_scenario
 from trihex.formats.plan_npz import write_plan_npz
+from trihex.frame import Frame
 from trihex.plan import JUMP, WAIT, plan_from_lists
 
 HEADER = "robot,step,x,y,action,time"
@@ -21,14 +24,25 @@ def folder(tmp_path_factory):
 
 
 @settings(deadline=None, max_examples=50)
-@given(plan=walks())
-def test_npz_round_trip(folder, plan):
+@given(plan=walks(), name=NAMES, frame=st.none() | FRAMES)
+def test_npz_round_trip(folder, plan, name, frame):
+    area = replace(plan.scenario.area, name=name.rstrip("\0"), frame=frame)  # numpy drops NULs at the end
+    plan = replace(plan, scenario=replace(plan.scenario, area=area), planner=name.rstrip("\0"))
     path = folder / "plan.npz"
     write_plan(plan, path)
     assert read_plan(path) == plan
     before = path.read_bytes()
     write_plan(plan, path)
     assert path.read_bytes() == before
+
+
+def test_a_frame_with_a_radius_is_kept(tmp_path):
+    area = Area(Tessellation("hexagonal"), np.zeros((1, 3)), "hall", Frame(0.7, (1, 2), 0.5, 0.15))
+    plan = plan_from_lists(Scenario(area, [(2, 0)], [(0, 0)]), [[2, 1]])
+    write_plan(plan, tmp_path / "p.npz")
+    assert read_plan(tmp_path / "p.npz") == plan
+    write_scenario(plan.scenario, tmp_path / "s.toml")
+    assert read_scenario(tmp_path / "s.toml") == plan.scenario
 
 
 @settings(deadline=None, max_examples=50)

@@ -17,6 +17,8 @@ from trihex.tessellation import Tessellation
 _ROBOTS = range(ord("a"), ord("z") + 1)
 _KIND_OF_LETTER = np.full(256, 255, dtype=np.uint8)
 _KIND_OF_LETTER[[*b".BD", *_ROBOTS]] = [*b".BD", *_ROBOTS]  # every known letter is a kind of its own
+_SHAPE = ("name", "neighbourhood", "costs")
+_RULES = ("waiting_cost", "crossing", "corners", "destination_capacity")
 _KNOWN = ". (free), B (barrier), D (destination), a to z (robots)"
 
 
@@ -62,6 +64,19 @@ def letters_of(scenario: Scenario) -> list[str]:
     letters[scenario.destinations] = ord("D")
     letters[scenario.robots] = _ROBOTS[: scenario.robot_count]
     return [bytes(row).decode() for row in letters.reshape(scenario.area.barriers.shape)]
+
+
+def lost_in_letters(scenario: Scenario) -> list[str]:
+    """Return what of a scenario its letters do not tell, in words; the seed and the name do not count."""
+    plain = Scenario(Area(Tessellation("hexagonal"), scenario.area.barriers), scenario.destinations, scenario.robots)
+    one, other = scenario.area.tessellation, plain.area.tessellation
+    lost = [f"{name} {getattr(one, name)}" for name in _SHAPE if getattr(one, name) != getattr(other, name)]
+    lost += [
+        f"{name.replace('_', ' ')} {getattr(scenario, name)}"
+        for name in _RULES
+        if getattr(scenario, name) != getattr(plain, name)
+    ]
+    return [*lost, *(["a frame in metres"] if scenario.area.frame else [])]
 
 
 def write_letters(what: Area | Scenario, path: str | os.PathLike[str]) -> None:

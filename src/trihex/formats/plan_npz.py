@@ -11,10 +11,12 @@ from typing import Any
 
 import numpy as np
 from numpy.lib import format as npy
+from numpy.typing import NDArray
 
 from trihex.area import Area
 from trihex.errors import FormatError
 from trihex.formats.files import new_file, read_bytes
+from trihex.frame import Frame
 from trihex.plan import Plan
 from trihex.scenario import Scenario
 from trihex.tessellation import Tessellation
@@ -30,6 +32,7 @@ _ENTRIES = {
     "costs": ("U", 0),
     "area": ("U", 0),
     "barriers": ("b", 2),
+    "frame": ("f", 1),  # cell size, origin x and y, yaw, robot radius; or nothing
     "destinations": ("i", 1),
     "robots": ("i", 1),
     "waiting_cost": ("i", 0),
@@ -55,7 +58,7 @@ _DAMAGE = (
     TypeError,
     OSError,
 )
-_LARGEST_ITEM = {"i": 8, "b": 1, "u": 1, "U": 4096}
+_LARGEST_ITEM = {"i": 8, "b": 1, "u": 1, "f": 8, "U": 4096}
 
 
 def write_plan_npz(plan: Plan, path: str | os.PathLike[str]) -> None:
@@ -71,6 +74,7 @@ def write_plan_npz(plan: Plan, path: str | os.PathLike[str]) -> None:
         "costs": tessellation.costs,
         "area": area.name,
         "barriers": area.barriers,
+        "frame": np.array([] if (at := area.frame) is None else [at.cell_size, *at.origin, at.yaw, at.robot_radius]),
         "destinations": scenario.destinations,
         "robots": scenario.robots,
         "waiting_cost": scenario.waiting_cost,
@@ -114,10 +118,9 @@ def read_plan_npz(path: str | os.PathLike[str], content: bytes | None = None) ->
         raise FormatError(f"{path}: version must be {VERSION}, not {version}")
     text = {name: str(arrays[name]) for name, (kind, _) in _ENTRIES.items() if kind == "U"}
     seed, capacity = int(arrays["seed"]), int(arrays["destination_capacity"])
+    tessellation = Tessellation(text["tessellation"], text["neighbourhood"], text["costs"])
     scenario = Scenario(
-        Area(
-            Tessellation(text["tessellation"], text["neighbourhood"], text["costs"]), arrays["barriers"], text["area"]
-        ),
+        Area(tessellation, arrays["barriers"], text["area"], _frame(arrays["frame"], path)),
         arrays["destinations"],
         arrays["robots"],
         int(arrays["waiting_cost"]),
@@ -136,6 +139,15 @@ def read_plan_npz(path: str | os.PathLike[str], content: bytes | None = None) ->
     )
     _check_inside(plan, path)
     return plan
+
+
+def _frame(numbers: NDArray[np.float64], path: object) -> Frame | None:
+    if numbers.size not in (0, 5):
+        raise FormatError(f"{path}: entry 'frame' must hold 5 numbers or none, not {numbers.size}")
+    if numbers.size == 0:
+        return None
+    cell_size, x, y, yaw, robot_radius = numbers.tolist()
+    return Frame(cell_size, (x, y), yaw, robot_radius)
 
 
 def _unpack(archive: zipfile.ZipFile, path: object) -> dict[str, Any]:

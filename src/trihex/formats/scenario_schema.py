@@ -33,6 +33,18 @@ class _Table(BaseModel):
     one_of: ClassVar[tuple[str, ...]] = ()
 
 
+_Number = Annotated[float, Field(allow_inf_nan=False, strict=False)]
+
+
+class FrameTable(_Table):
+    """[area.frame]: where the area lies in the world, in metres."""
+
+    cell_size: Annotated[_Number, Field(gt=0)]
+    origin: Annotated[list[_Number], Field(min_length=2, max_length=2)] = [0.0, 0.0]
+    yaw: _Number = 0.0
+    robot_radius: Annotated[_Number, Field(ge=0)] = 0.0
+
+
 class AreaTable(_Table):
     """[area]: where the barriers come from, and how they are read."""
 
@@ -43,6 +55,7 @@ class AreaTable(_Table):
     tessellation: Annotated[str, _choice("it", TESSELLATIONS)] = "hexagonal"
     neighbourhood: Annotated[str, _choice("it", NEIGHBOURHOODS)] = "full"
     costs: Annotated[str, _choice("it", COSTS)] = "paper"
+    frame: FrameTable | None = None
 
 
 class RulesTable(_Table):

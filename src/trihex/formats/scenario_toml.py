@@ -19,6 +19,7 @@ from trihex.formats.files import check_text, new_file, read_bytes
 from trihex.formats.letters import parse_letters
 from trihex.formats.scenario_schema import AreaTable, ScenarioTable, check_document
 from trihex.formats.starts_csv import read_starts
+from trihex.frame import Frame
 from trihex.scenario import Scenario
 from trihex.tessellation import Tessellation
 
@@ -116,7 +117,11 @@ def _area_draft(table: AreaTable, path: Path, read_area_draft: Callable[[Path, T
     else:
         draft = parse_letters("\n".join(table.rows or []).encode(), "area.rows", tessellation)
     name = table.name or (draft.area.name if table.path is not None else path.stem)
-    return Draft(Area(tessellation, draft.area.barriers, name), draft.destinations, draft.robots)
+    frame = draft.area.frame
+    if table.frame is not None:
+        x, y = table.frame.origin
+        frame = Frame(table.frame.cell_size, (x, y), table.frame.yaw, table.frame.robot_radius)
+    return Draft(Area(tessellation, draft.area.barriers, name, frame), draft.destinations, draft.robots)
 
 
 def write_scenario_toml(
@@ -136,6 +141,7 @@ def write_scenario_toml(
         "rows = [",
         *(f"  {_text(row)}," for row in rows),
         "]",
+        *_frame_lines(area),
         "",
         "[rules]",
         f"waiting_cost = {scenario.waiting_cost}",
@@ -155,6 +161,19 @@ def write_scenario_toml(
     kept = [line for line, after in zip(lines, [*lines[1:], "end"], strict=True) if line or after.startswith("[")]
     with new_file(path) as part:
         part.write_text("\n".join([*kept, ""]), encoding="utf-8")
+
+
+def _frame_lines(area: Area) -> list[str]:
+    if (frame := area.frame) is None:
+        return []
+    return [
+        "",
+        "[area.frame]",
+        f"cell_size = {frame.cell_size!r}",
+        f"origin = {list(frame.origin)!r}",
+        f"yaw = {frame.yaw!r}",
+        f"robot_radius = {frame.robot_radius!r}",
+    ]
 
 
 def _cells(area: Area, cells: NDArray[np.int64]) -> str:

@@ -1,0 +1,20 @@
+"""Report as JSON: the summary of a plan."""
+
+from __future__ import annotations
+
+import json
+import os
+
+from trihex.formats.files import new_file
+from trihex.report import Report
+
+
+def report_text(report: Report) -> str:
+    """Return the summary as JSON, one key a line, with a line feed at the end."""
+    return json.dumps(report.as_dict(), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def write_report(report: Report, path: str | os.PathLike[str]) -> None:
+    """Write the summary as JSON."""
+    with new_file(path) as part:
+        part.write_text(report_text(report), encoding="utf-8")
