@@ -9,7 +9,7 @@ from trihex.area import Area
 from trihex.palette import DESTINATION, INK, PAGE, Colour, is_light
 from trihex.plan import Plan
 from trihex.scenario import Scenario
-from trihex.scene import Discs, Mark, Texts, centres_of
+from trihex.scene import Discs, Mark, Texts, centres_of, ink_on
 from trihex.schemes import NOT_REACHED
 from trihex.sheet import width_of
 
@@ -38,7 +38,7 @@ def robot_marks(scenario: Scenario, robots: NDArray[np.int64], colour: Colour, s
     x, y = centres_of(scenario.area, scenario.robots[robots])
     marks: list[Mark] = [Discs(x, y, ROBOT_RADIUS, colour, LEAST_ROBOT)]
     if scale >= LETTERS_FROM and scenario.robot_count <= len(LETTERS):
-        marks.append(Texts(x, y, tuple(LETTERS[r] for r in robots), round(0.46 * scale), PAGE))
+        marks.append(Texts(x, y, tuple(LETTERS[r] for r in robots), round(0.46 * scale), ink_on(colour)))
     return marks
 
 

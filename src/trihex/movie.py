@@ -17,11 +17,11 @@ from trihex.formats.files import new_file, suffix_of
 from trihex.gif import GifWriter
 from trihex.marks import LETTERS, LETTERS_FROM
 from trihex.mp4 import Mp4Writer, import_av
-from trihex.palette import FINAL, MOVING, PAGE, STRANDED, WAITING, Colour
+from trihex.palette import FINAL, MOVING, STRANDED, WAITING, Colour
 from trihex.picture import picture_of_area
 from trihex.plan import Plan
 from trihex.png import paint, paint_disc_marks, paint_discs, write_words
-from trihex.scene import Key, Scene, centres_of, scale_for
+from trihex.scene import Key, Scene, centres_of, ink_on, scale_for
 from trihex.sheet import MARGIN, TEXT_SIZE, Sheet, Words, arrange, width_of
 
 SUFFIXES = (".gif", ".mp4")
@@ -222,8 +222,9 @@ class Film:
             paint_discs(frame, x[robots], y[robots], max(_RADIUS * scale, _LEAST_RADIUS), colour)
         words = []
         if self.plan.scenario.robot_count <= len(LETTERS) and scale >= LETTERS_FROM:
-            for robot in np.concatenate([robots for robots, _ in groups]).tolist():
-                words.append(Words(x[robot], y[robot], LETTERS[robot], round(0.46 * scale), PAGE, True))
+            for robots, colour in groups:
+                for robot in robots.tolist():
+                    words.append(Words(x[robot], y[robot], LETTERS[robot], round(0.46 * scale), ink_on(colour), True))
         if self.clock:
             arrival = self.plan.arrival_step_of_robot
             arrived = np.count_nonzero((arrival >= 0) & (arrival <= step))

@@ -22,7 +22,7 @@ UNREACHED: Colour = (188, 186, 190)
 # Robots, by the sets of the paper (section 2.1.1): filled, waiting, final; and those that never arrive.
 MOVING: Colour = (0, 114, 178)
 WAITING: Colour = (240, 150, 0)
-FINAL: Colour = (214, 90, 170)
+FINAL: Colour = (238, 160, 214)
 STRANDED: Colour = (10, 10, 10)
 
 # Colours to tell lines or bars apart, in this order; none of them is that of destinations or barriers.

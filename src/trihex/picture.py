@@ -29,7 +29,7 @@ from trihex.svg import svg_of
 SUFFIXES = (".png", ".svg")
 ARROWS_FROM = 18.0  # pixels per edge step
 PATHS_FROM = 8.0
-MOST_PATHS = 26
+MOST_PATHS, MOST_PATH_STEPS = 26, 10_000
 _SHADES = 240
 
 
@@ -160,7 +160,7 @@ def _scene_of_distances(
     far = max(1, far)
     cells = make.base_cells(scenario, _SHADES + 2, _SHADES, _SHADES + 1)
     is_shaded = is_reached & (distance > 0)
-    cells[is_shaded] = np.minimum(distance[is_shaded] * ((_SHADES - 1) / far), _SHADES - 1)
+    cells[is_shaded] = np.minimum(np.rint(distance[is_shaded] * ((_SHADES - 1) / far)), _SHADES - 1)
     colours = np.vstack([shades, colour_rows([BARRIER, DESTINATION, UNREACHED])])
     marks = make.number_marks(area, distance, cells, colours, scale)
     marks = [*make.destination_marks(scenario, scale, letters=not marks), *marks]
@@ -215,12 +215,12 @@ def picture_of_plan(
     width, title, legend
         As for `picture_of_area`.
     paths : bool, optional
-        Whether to draw a line for each robot instead of the visits. Default: if they are 26 at most.
+        Whether to draw a line for each robot, not the visits. Default: if there are 26 at most and cells are large.
     """
     scenario, area = plan.scenario, plan.scenario.area
     scale = scale_for(area, width)
     if paths is None:
-        paths = scenario.robot_count <= MOST_PATHS and scale >= PATHS_FROM
+        paths = scenario.robot_count <= MOST_PATHS and plan.steps <= MOST_PATH_STEPS and scale >= PATHS_FROM
     arrived, stranded = np.flatnonzero(plan.arrived), np.flatnonzero(~plan.arrived)
     shades = palette.visits_ramp(_SHADES)
     first = _SHADES
@@ -237,7 +237,7 @@ def picture_of_plan(
         visits = make.visits_of(plan)
         most = max(1, int(visits[cells == first].max(initial=0)))
         is_shaded = (visits > 0) & (cells == first)
-        cells[is_shaded] = np.log(visits[is_shaded]) * ((_SHADES - 1) / max(np.log(most), 1e-9))
+        cells[is_shaded] = np.rint(np.log(visits[is_shaded]) * ((_SHADES - 1) / max(np.log(most), 1e-9)))
         marks += make.robot_marks(scenario, arrived, MOVING, scale) + make.robot_marks(
             scenario, stranded, STRANDED, scale
         )

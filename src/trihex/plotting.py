@@ -127,9 +127,12 @@ def _draw(make: Callable[[int], Picture], area: Area, ax: Any) -> Any:
     box = ax.get_window_extent().transformed(ax.figure.dpi_scale_trans.inverted())
     points = 72 * min(box.width / across, box.height / down)
     scene = make(max(8, round(across * points * _PIXELS_PER_POINT))).scene
-    _draw_cells(scene, ax)
-    for mark in scene.marks:
-        _draw_mark(mark, scene, ax)
+    if area.cell_count > MOST_POLYGONS:
+        ax.imshow(paint(scene.without_words()), extent=(0, across, down, 0))
+    else:
+        _draw_cells(scene, ax)
+        for mark in scene.marks:
+            _draw_mark(mark, scene, ax)
     _draw_legend(scene, ax)
     ax.set(xlim=(0, across), ylim=(down, 0), aspect="equal", title=scene.title)
     ax.set_axis_off()
@@ -138,11 +141,6 @@ def _draw(make: Callable[[int], Picture], area: Area, ax: Any) -> Any:
 
 def _draw_cells(scene: Scene, ax: Any) -> None:
     area = scene.area
-    across, down = area.tessellation.extent(area.height, area.width)
-    if area.cell_count > MOST_POLYGONS:
-        bare = Scene(area, scene.colour_of_cell, scene.colours, scene.scale, scene.bold)
-        ax.imshow(paint(bare), extent=(0, across, down, 0))
-        return
     corners = area.tessellation.polygon_of_cell(*area.cell_to_xy(np.arange(area.cell_count)))
     face = scene.colours[scene.colour_of_cell.reshape(-1)] / 255
     edge = 0.82 * face if scene.is_outlined else face

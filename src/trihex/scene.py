@@ -6,7 +6,7 @@ and widths of lines are in pixels. The painters (`trihex.png`, `trihex.svg`, `tr
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 import numpy as np
@@ -22,7 +22,7 @@ OUTLINES_FROM = 7.0
 MOST_SCALE = 56.0
 # The longest side of a picture unless the caller names a width: large areas get more, so that their walls show.
 SIDE, MOST_SIDE = 960.0, 1600.0
-MOST_PIXELS = 200_000_000
+MOST_PIXELS = 100_000_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,6 +113,10 @@ class Scene(Record):
     def is_outlined(self) -> bool:
         """Whether cells are large enough for their outlines."""
         return self.scale >= OUTLINES_FROM
+
+    def without_words(self) -> Scene:
+        """Return the scene without title and legend."""
+        return replace(self, title="", subtitle="", legend=())
 
 
 def scale_for(area: Area, width: int | None, side: float = SIDE, most_side: float = MOST_SIDE) -> float:

@@ -15,7 +15,7 @@ from trihex.png import disc_radius, paint, write_png
 from trihex.scene import Discs, Lines, Scene, Texts
 from trihex.sheet import RAMP_WIDTH, Sheet, arrange
 
-# Coordinates are whole numbers of this many units a pixel, which is shorter than decimals.
+# Coordinates are whole numbers, so many a pixel, which is shorter than decimals.
 UNITS = 20
 # More cells than this are embedded as an image: as polygons they would take over 2 MB, and viewers seconds.
 MOST_POLYGONS = 60_000
@@ -31,10 +31,7 @@ def svg_of(scene: Scene) -> str:
         f"<title>{_escape(scene.title)}</title>" if scene.title else "",
         f'<rect width="100%" height="100%" fill="{_hex(PAGE)}"/>',
         f'<g transform="translate({left} {top}) scale({1 / UNITS})">',
-        _cells(scene, sheet) if scene.area.cell_count <= MOST_POLYGONS else _image(scene, sheet),
-        *(_lines(mark, scene) for mark in scene.marks if isinstance(mark, Lines)),
-        *(_discs(mark, scene) for mark in scene.marks if isinstance(mark, Discs)),
-        *(_texts(mark, scene) for mark in scene.marks if isinstance(mark, Texts)),
+        *(_polygons_and_marks(scene) if scene.area.cell_count <= MOST_POLYGONS else [_image(scene, sheet)]),
         "</g>",
         _strip(sheet),
         "</svg>\n",
@@ -55,7 +52,16 @@ def _whole(values: NDArray[np.float64], scene: Scene) -> NDArray[np.int64]:
     return np.round(values * (scene.scale * UNITS)).astype(np.int64)
 
 
-def _cells(scene: Scene, sheet: Sheet) -> str:
+def _polygons_and_marks(scene: Scene) -> list[str]:
+    return [
+        _cells(scene),
+        *(_lines(mark, scene) for mark in scene.marks if isinstance(mark, Lines)),
+        *(_discs(mark, scene) for mark in scene.marks if isinstance(mark, Discs)),
+        *(_texts(mark, scene) for mark in scene.marks if isinstance(mark, Texts)),
+    ]
+
+
+def _cells(scene: Scene) -> str:
     """Return one path for each colour, with a polygon for each cell."""
     height, width = scene.colour_of_cell.shape
     y, x = np.divmod(np.arange(height * width), width)
@@ -80,9 +86,8 @@ def _cells(scene: Scene, sheet: Sheet) -> str:
 
 
 def _image(scene: Scene, sheet: Sheet) -> str:
-    bare = Scene(scene.area, scene.colour_of_cell, scene.colours, scene.scale, scene.bold)
     file = BytesIO()
-    write_png(paint(bare), file)
+    write_png(paint(scene.without_words()), file)
     return (
         f'<image width="{sheet.body_width * UNITS}" height="{sheet.body_height * UNITS}"'
         f' href="data:image/png;base64,{b64encode(file.getvalue()).decode()}"/>'
