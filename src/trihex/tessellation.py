@@ -164,6 +164,11 @@ class Tessellation(Record):
             return read_only(np.array([10 if row[4] is None else 14 for row in self._rows[0]], dtype=np.int32))
         return read_only(np.array([round(1000 * row[3]) for row in self._rows[0]], dtype=np.int32))
 
+    @cached_property
+    def longest_move(self) -> float:
+        """Greatest distance that a move covers, in edge steps: 1, sqrt(2) or 2."""
+        return max(row[3] for row in self._rows[0])
+
     @property
     def edge_cost(self) -> int:
         """Cost of a step across an edge, the unit of all times: 10 (paper) or 1000 (euclidean)."""

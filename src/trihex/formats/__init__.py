@@ -10,35 +10,55 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from trihex.area import Area
+from trihex.coverage import Progress
 from trihex.errors import FormatError
 from trihex.formats.draft import Draft, draft_of
 from trihex.formats.files import check_text, read_bytes, suffix_of
+from trihex.formats.image import SUFFIXES as IMAGE_SUFFIXES
+from trihex.formats.image import refuse_frame, write_image
 from trihex.formats.letters import parse_letters, write_letters
 from trihex.formats.movingai import parse_movingai, write_movingai
+from trihex.formats.options import AreaOptions
 from trihex.formats.plan_csv import read_plan_csv, write_plan_csv
 from trihex.formats.plan_npz import read_plan_npz, write_plan_npz
 from trihex.formats.recognise import format_of
-from trihex.formats.starts_csv import read_starts as read_starts
+from trihex.formats.starts_csv import read_starts as read_starts_csv
 from trihex.formats.starts_csv import write_starts as write_starts
+from trihex.frame import Frame
 from trihex.plan import Plan
 from trihex.scenario import Scenario
 from trihex.tessellation import Tessellation
 
-AREA_SUFFIXES = (".map", ".txt")
-PLAN_SUFFIXES = (".csv", ".npz")
+AREA_SUFFIXES = (".map", ".txt", *IMAGE_SUFFIXES)
+PLAN_SUFFIXES = (".csv", ".npz", ".parquet", ".txt")
+WAYPOINT_SUFFIXES = (".csv", ".yaml", ".json", ".geojson", ".sqlite")
 SCENARIO_SUFFIXES = (".toml", ".txt")
 
 
-def read_draft(path: str | os.PathLike[str], tessellation: Tessellation | str | None = None) -> Draft:
+def read_draft(
+    path: str | os.PathLike[str],
+    tessellation: Tessellation | str | None = None,
+    *,
+    progress: Progress | None = None,
+    **options: Any,
+) -> Draft:
     """Return what a file says of a scenario: an area with or without destinations, robots and rules.
 
     Parameters
     ----------
     path : path
-        MovingAI ``.map``, letters ``.txt``, scenario ``.toml`` or plan ``.npz``.
+        MovingAI ``.map``, letters ``.txt``, ROS map ``.yaml``, image, ``.geojson``, ``.wkt``, scenario ``.toml`` or
+        plan ``.npz``.
     tessellation : Tessellation or str, optional
         What the cells are. Default: what the file says, or hexagonal.
+    progress : callable, optional
+        Called with (rows covered, all rows).
+    **options
+        How areas are read, such as `cell_size` and `robot_radius` in metres; see `formats.options.AreaOptions`.
 
     Raises
     ------
@@ -50,6 +70,8 @@ def read_draft(path: str | os.PathLike[str], tessellation: Tessellation | str | 
     content = read_bytes(path)
     form = format_of(content, path)
     draft: Draft
+    if form in ("npz", "scenario") and any(value is not None for value in options.values()):
+        raise FormatError(f"{path}: says itself how its area lies in the world; {', '.join(options)} cannot change it")
     if form == "npz":
         draft = draft_of(read_plan_npz(path, content).scenario)
     elif form == "scenario":
@@ -57,7 +79,8 @@ def read_draft(path: str | os.PathLike[str], tessellation: Tessellation | str | 
 
         draft = read_scenario_toml(path, _read_area_draft, content)
     else:
-        return _parse_area(content, form, path, _made(tessellation or "hexagonal"))
+        given = {name: value for name, value in options.items() if value is not None}
+        return _parse_area(content, form, path, AreaOptions(_made(tessellation or "hexagonal"), **given), progress)
     if tessellation is not None:
         draft = replace(draft, area=draft.area.with_tessellation(_made(tessellation)))
     return draft
@@ -69,24 +92,79 @@ def _made(tessellation: Tessellation | str) -> Tessellation:
 
 def _read_area_draft(path: Path, tessellation: Tessellation) -> Draft:
     content = read_bytes(path)
-    return _parse_area(content, format_of(content, path), path, tessellation)
+    return _parse_area(content, format_of(content, path), path, AreaOptions(tessellation), None)
 
 
-def _parse_area(content: bytes, form: str, path: str | os.PathLike[str], tessellation: Tessellation) -> Draft:
+def _parse_area(
+    content: bytes, form: str, path: str | os.PathLike[str], options: AreaOptions, progress: Progress | None
+) -> Draft:
+    """Return the draft of an area; parsers of real places are imported where they are used."""
+    if form == "ros":
+        from trihex.formats.ros import parse_ros
+
+        return Draft(parse_ros(content, path, options, progress))
+    if form == "image":
+        from trihex.formats.image import parse_image
+
+        return Draft(parse_image(content, path, options, progress))
+    if form == "geojson":
+        from trihex.formats.geojson import parse_geojson
+
+        return parse_geojson(content, path, options, progress)
+    if form == "wkt":
+        from trihex.formats.wkt import parse_wkt
+
+        return parse_wkt(content, path, options, progress)
     if form not in ("movingai", "letters"):
-        raise FormatError(f"{path}: must hold an area (.map or .txt), not {form}")
-    text = check_text(content, path)
+        raise FormatError(f"{path}: must hold an area, not {form}")
+    if options.robot_radius:
+        raise FormatError(f"{path}: has one cell for each letter; robot_radius needs a place with walls in metres")
+    text, tessellation = check_text(content, path), options.tessellation
     if form == "movingai":
-        return Draft(Area(tessellation, parse_movingai(text, path), Path(path).stem))
-    return parse_letters(text, path, tessellation)
+        draft = Draft(Area(tessellation, parse_movingai(text, path), Path(path).stem))
+    else:
+        draft = parse_letters(text, path, tessellation)
+    if options.cell_size is None:
+        return draft
+    return replace(draft, area=replace(draft.area, frame=Frame(options.cell_size)))
 
 
-def read_area(path: str | os.PathLike[str], tessellation: Tessellation | str | None = None) -> Area:
+def read_starts(path: str | os.PathLike[str], area: Area) -> NDArray[np.int64]:
+    """Return the cell numbers of robots from CSV with the header `x,y`, or a MovingAI ``.scen`` without its goals.
+
+    Raises
+    ------
+    FormatError
+        If a line is not of the form, or a cell lies outside `area`.
+    OSError
+        If the file cannot be read.
+    """
+    content = read_bytes(path)
+    if format_of(content, path) == "scen":
+        from trihex.formats.scen import parse_scen
+
+        return parse_scen(content, path, area)
+    return read_starts_csv(path, area)
+
+
+def read_area(
+    path: str | os.PathLike[str],
+    tessellation: Tessellation | str | None = None,
+    *,
+    progress: Progress | None = None,
+    **options: Any,
+) -> Area:
     """Return the area of a file, named after it; see `read_draft`."""
-    return read_draft(path, tessellation).area
+    return read_draft(path, tessellation, progress=progress, **options).area
 
 
-def read_scenario(path: str | os.PathLike[str], tessellation: Tessellation | str | None = None) -> Scenario:
+def read_scenario(
+    path: str | os.PathLike[str],
+    tessellation: Tessellation | str | None = None,
+    *,
+    progress: Progress | None = None,
+    **options: Any,
+) -> Scenario:
     """Return the scenario of a file that names at least one destination; see `read_draft`.
 
     Raises
@@ -94,12 +172,22 @@ def read_scenario(path: str | os.PathLike[str], tessellation: Tessellation | str
     ScenarioError
         If the file names no destination, or its parts do not fit.
     """
-    return read_draft(path, tessellation).complete()
+    return read_draft(path, tessellation, progress=progress, **options).complete()
 
 
 def write_area(area: Area, path: str | os.PathLike[str]) -> None:
-    """Write the barriers of an area as MovingAI ``.map`` or letters ``.txt``; neither keeps the tessellation."""
-    if suffix_of(path, AREA_SUFFIXES, "an area") == ".map":
+    """Write the barriers of an area as MovingAI ``.map``, letters ``.txt`` or an image; none keeps the tessellation.
+
+    Raises
+    ------
+    FormatError
+        If the area has a frame.
+    """
+    suffix = suffix_of(path, AREA_SUFFIXES, "an area")
+    refuse_frame(area.frame, path)
+    if suffix in IMAGE_SUFFIXES:
+        write_image(area, path)
+    elif suffix == ".map":
         write_movingai(area, path)
     else:
         write_letters(area, path)
@@ -122,19 +210,19 @@ def write_scenario(scenario: Scenario, path: str | os.PathLike[str], **planner: 
 
 
 def read_plan(path: str | os.PathLike[str], scenario: Scenario | None = None) -> Plan:
-    """Return the plan of a ``.npz`` or ``.csv`` file.
+    """Return the plan of a ``.npz``, ``.csv`` or ``.parquet`` file.
 
     Parameters
     ----------
     path : path
     scenario : Scenario, optional
-        For CSV, which keeps neither area nor rules: what the plan was made for. Its robots are not looked at. A plan
-        in ``.npz`` brings its own.
+        For CSV and Parquet, which keep neither area nor rules: what the plan was made for. Its robots are not looked
+        at. A plan in ``.npz`` brings its own.
 
     Raises
     ------
     FormatError
-        If the file is not what it claims to be, or is a CSV and there is no scenario.
+        If the file is not what it claims to be, or keeps no area and there is no scenario.
     OSError
         If it cannot be read.
     """
@@ -142,18 +230,64 @@ def read_plan(path: str | os.PathLike[str], scenario: Scenario | None = None) ->
     form = format_of(content, path)
     if form == "npz":
         return read_plan_npz(path, content)
-    if form != "plan":
-        raise FormatError(f"{path}: must hold a plan (.npz or .csv), not {form}")
+    if form not in ("plan", "parquet"):
+        raise FormatError(f"{path}: must hold a plan (.npz, .csv or .parquet), not {form}")
     if scenario is None:
-        raise FormatError(
-            f"{path}: a plan in CSV does not hold its area; name the area, destinations and rules as well"
-        )
+        raise FormatError(f"{path}: does not hold its area; name the area, destinations and rules as well")
+    if form == "parquet":
+        from trihex.formats.plan_parquet import read_plan_parquet
+
+        return read_plan_parquet(path, scenario, content)
     return read_plan_csv(path, scenario, content)
 
 
 def write_plan(plan: Plan, path: str | os.PathLike[str]) -> None:
-    """Write a plan as ``.csv`` or ``.npz``."""
-    if suffix_of(path, PLAN_SUFFIXES, "a plan") == ".csv":
+    """Write a plan as ``.csv``, ``.npz`` or ``.parquet``; as ``.txt`` for mapf-visualizer, which knows only squares."""
+    suffix = suffix_of(path, PLAN_SUFFIXES, "a plan")
+    if suffix == ".csv":
         write_plan_csv(plan, path)
-    else:
+    elif suffix == ".npz":
         write_plan_npz(plan, path)
+    elif suffix == ".parquet":
+        from trihex.formats.plan_parquet import write_plan_parquet
+
+        write_plan_parquet(plan, path)
+    else:
+        from trihex.formats.mapf import write_mapf
+
+        write_mapf(plan, path)
+
+
+def write_waypoints(plan: Plan, path: str | os.PathLike[str], *, speed: float = 1.0) -> None:
+    """Write where each robot is at which second, in metres; no robot is faster than `speed` metres in a second.
+
+    ``.csv`` has a row for each robot and step, ``.yaml`` and ``.json`` a nav_msgs/Path for each robot, ``.geojson`` a
+    LineString for each robot; ``.sqlite`` is for JuPedSim and PedPy.
+
+    Raises
+    ------
+    AreaError
+        If the area has no frame.
+    FormatError
+        If the speed is not above 0, or a robot does what no robot can.
+    """
+    from trihex.formats.tracks import make_tracks
+
+    suffix = suffix_of(path, WAYPOINT_SUFFIXES, "waypoints")
+    tracks = make_tracks(plan, speed)
+    if suffix == ".csv":
+        from trihex.formats.waypoints import write_waypoints_csv
+
+        write_waypoints_csv(tracks, path)
+    elif suffix == ".geojson":
+        from trihex.formats.geojson import write_geojson
+
+        write_geojson(tracks, path)
+    elif suffix == ".sqlite":
+        from trihex.formats.jupedsim import write_jupedsim
+
+        write_jupedsim(tracks, plan.scenario.area, path)
+    else:
+        from trihex.formats.nav_path import write_nav_path
+
+        write_nav_path(tracks, path, is_json=suffix == ".json")

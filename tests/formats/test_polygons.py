@@ -1,0 +1,174 @@
+"""GeoJSON and WKT: places drawn by hand, with exits and robots, and drawings that are none."""
+
+import json
+
+import numpy as np
+import pytest
+import shapely
+
+from trihex import FormatError, TooLargeError, read_area, read_scenario
+from trihex.formats import read_draft
+
+HALL = [[[0, 0], [10, 0], [10, 6], [0, 6], [0, 0]], [[4, 2], [6, 2], [6, 4], [4, 4], [4, 2]]]
+SQUARES = {"tessellation": "square", "cell_size": 1.0, "robot_radius": 0.2}
+
+
+def feature(kind, type_, coordinates):
+    properties = {} if kind is None else {"kind": kind}
+    return {"type": "Feature", "properties": properties, "geometry": {"type": type_, "coordinates": coordinates}}
+
+
+def write(path, *features):
+    path.write_text(json.dumps({"type": "FeatureCollection", "features": list(features)}))
+    return path
+
+
+def rows(area):
+    return ["".join(".B"[barrier] for barrier in row) for row in area.barriers.astype(int)]
+
+
+PICTURE = [
+    "BBBBBBBBBB",
+    "B...BB...B",  # the pillar blocks the cells that touch it, too
+    "B..BBBB..B",
+    "B..BBBB..B",
+    "B...BB...B",
+    "BBBBBBBBBB",
+]
+
+
+def drawn(tmp_path):
+    area = read_area(write(tmp_path / "hall.geojson", feature(None, "Polygon", HALL)), **SQUARES)
+    return rows(area)
+
+
+def test_a_hall_with_a_pillar(tmp_path):
+    picture = drawn(tmp_path)
+    for y, x in np.ndindex(6, 10):
+        near = 3 <= x <= 6 and 1 <= y <= 4
+        wall = x in (0, 9) or y in (0, 5)
+        if not near:
+            assert picture[y][x] == ".B"[wall]
+    assert all(picture[y][x] == "B" for y in (2, 3) for x in (4, 5))
+    area = read_area(tmp_path / "hall.geojson", **SQUARES)
+    assert area.frame.origin == (0.0, 6.0) and area.name == "hall"
+
+
+def test_geojson_and_wkt_draw_the_same_hall_however_it_is_put(tmp_path):
+    picture = drawn(tmp_path)
+    hall = feature("free", "Polygon", HALL[:1])
+    wall = [hall, feature("obstacle", "Polygon", HALL[1:])]
+    spots = [[x / 10, y / 10] for x in range(40, 61) for y in range(20, 41)]
+    spots = [hall, feature("obstacle", "MultiPoint", spots)]
+    for features in (wall, spots):
+        assert rows(read_area(write(tmp_path / "a.geojson", *features), **SQUARES)) == picture
+    (tmp_path / "b.geojson").write_text(json.dumps({"type": "Polygon", "coordinates": HALL}))
+    assert rows(read_area(tmp_path / "b.geojson", **SQUARES)) == picture
+    collection = {"type": "GeometryCollection", "geometries": [{"type": "Polygon", "coordinates": HALL}]}
+    (tmp_path / "b.json").write_text(json.dumps(feature(None, "Point", 0) | {"geometry": collection}))
+    assert rows(read_area(tmp_path / "b.json", **SQUARES)) == picture
+    for text in (
+        shapely.Polygon(HALL[0], HALL[1:]).wkt,
+        f"GEOMETRYCOLLECTION ({shapely.Polygon(HALL[0], HALL[1:]).wkt}, GEOMETRYCOLLECTION EMPTY)",
+        f"geometrycollection z ({shapely.Polygon([(*p, 5) for p in HALL[0]], [[(*p, 5) for p in HALL[1]]]).wkt})",
+        shapely.MultiPolygon([(HALL[0], HALL[1:])]).wkt,
+    ):
+        (tmp_path / "hall.wkt").write_text(text)
+        assert rows(read_area(tmp_path / "hall.wkt", **SQUARES)) == picture
+
+
+def test_lines_and_points_of_wkt_are_obstacles(tmp_path):
+    (tmp_path / "a").write_text("GEOMETRYCOLLECTION (POLYGON ((0 0, 6 0, 6 5, 0 5, 0 0)), LINESTRING (2.5 0, 2.5 5))")
+    assert rows(read_area(tmp_path / "a", **SQUARES)) == ["BBBBBB", *["B.B..B"] * 3, "BBBBBB"]
+
+
+def test_destinations_and_robots_are_drawn_too(tmp_path):
+    path = write(
+        tmp_path / "hall.geojson",
+        feature(None, "Polygon", HALL),
+        feature("destination", "LineString", [[1.2, 1.5], [2.8, 1.5]]),
+        feature("destination", "Point", [8.5, 4.5]),
+        feature("robot", "MultiPoint", [[1.1, 4.9], [8.9, 1.1]]),
+        feature("robot", "Point", [2.5, 4.5]),
+    )
+    scenario = read_scenario(path, **SQUARES)
+    assert scenario.destinations.tolist() == scenario.area.xy_to_cell([1, 2, 8], [4, 4, 1]).tolist()
+    assert scenario.robots.tolist() == scenario.area.xy_to_cell([1, 8, 2], [1, 4, 1]).tolist()
+    assert scenario.destination_capacity == 1
+    assert read_draft(write(path, feature(None, "Polygon", HALL)), **SQUARES).robots is None
+
+
+def test_an_exit_is_the_free_cells_that_its_polygon_touches(tmp_path):
+    door = [[[8.2, 1.2], [8.8, 1.2], [8.8, 3.2], [8.2, 3.2], [8.2, 1.2]]]
+    path = write(tmp_path / "a.json", feature(None, "Polygon", HALL), feature("destination", "Polygon", door))
+    area = read_draft(path, **SQUARES).area
+    assert read_draft(path, **SQUARES).destinations.tolist() == area.xy_to_cell([8, 8, 8], [2, 3, 4]).tolist()
+
+
+OPEN = [[[0, 0], [1, 0], [1, 1]]]
+BOW = [[[0, 0], [2, 2], [2, 0], [0, 2], [0, 0]]]
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        ("{", "is no JSON"),
+        ("{" * 5, "is no JSON"),
+        ('{"a":' * 100_000, "is nested too deeply"),
+        ('{"type": "Polygon", "coordinates": ' + "[" * 900 + "]" * 900 + "}", "coordinates must be finite numbers"),
+        ({"type": "FeatureCollection", "features": 3}, "features must be a list, not int"),
+        ({"type": "FeatureCollection", "features": []}, "there must be a polygon that is free"),
+        ({"type": "FeatureCollection", "features": [3]}, "feature 0: must be an object, not 3"),
+        ({"type": "Polygn", "coordinates": HALL}, "feature 0: type must be one of .*; did you mean 'Polygon'"),
+        ({"type": "Feature", "geometry": [], "properties": None}, r"a geometry must be an object, not \[\]"),
+        ({"type": "Polygon"}, "is no Polygon: coordinates must be finite numbers"),
+        ({"type": "Polygon", "coordinates": OPEN}, "is no Polygon: a ring must end where it begins"),
+        ({"type": "Polygon", "coordinates": [[[0, 0], ["a", 0], [1, 1]]]}, "coordinates must be finite numbers"),
+        ({"type": "Polygon", "coordinates": [[[0, 0], [float("nan"), 0]]]}, "coordinates must be finite numbers"),
+        ({"type": "Polygon", "coordinates": [[[0, 0], [1e300, 0], [1, 1e300], [0, 0]]]}, "a world|invalid|an area"),
+        ({"type": "Polygon", "coordinates": BOW}, r"a Polygon is invalid: Self-intersection\[1 1\]"),
+        (feature("exit", "Polygon", HALL), "feature 0: kind must be one of free, obstacle, destination, robot"),
+        (feature("robt", "Polygon", HALL), "did you mean 'robot'"),
+        (feature(None, "Point", [1, 1]), "a Point must have the property kind"),
+        (feature("free", "LineString", [[1, 1], [2, 2]]), "what is 'free' must be a polygon, not a LineString"),
+        (feature("robot", "Polygon", HALL), "what is 'robot' must be a point, not a Polygon"),
+    ],
+)  # fmt: skip
+def test_geojson_that_is_none_is_refused(tmp_path, content, message):
+    (tmp_path / "a.geojson").write_text(content if isinstance(content, str) else json.dumps(content))
+    with pytest.raises((FormatError, TooLargeError), match=message):
+        read_area(tmp_path / "a.geojson", **SQUARES)
+
+
+def test_what_lies_outside_the_hall_is_refused(tmp_path):
+    hall = feature(None, "Polygon", HALL)
+    path = write(tmp_path / "a.json", hall, feature("robot", "Point", [30, 1]))
+    with pytest.raises(FormatError, match=r"a robot: point \(30, 1\) metres lies outside the area"):
+        read_draft(path, **SQUARES)
+    write(path, hall, feature("destination", "LineString", [[4.5, 2.5], [5.5, 2.5]]))
+    with pytest.raises(
+        FormatError, match=r"a destination between \(4.5, 2.5\) and \(5.5, 2.5\) metres touches no free"
+    ):
+        read_draft(path, **SQUARES)
+    with pytest.raises(FormatError, match="a place drawn by polygons is measured in metres"):
+        read_draft(path)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("POLYGON ((0 0, 1 1", "is no WKT: Expected word but encountered end of stream"),
+        ("POLYGON ((0 0, 1 1, 2 2, 0 0))", "a Polygon is invalid|none with an area"),
+        ("POLYGON ((0 0, nan 1, 1 1, 0 0))", "coordinates must be finite numbers"),
+        ("POLYGON ((0 0, 1e999 1, 1 1, 0 0))", "coordinates must be finite numbers"),
+        ("CURVEPOLYGON (CIRCULARSTRING (0 0, 4 0, 4 4, 0 4, 0 0))", "is no WKT: Nonlinear geometry types"),
+        ("GEOMETRYCOLLECTION (" * 100_000, "is nested too deeply"),
+        ("POINT (1 1)", "there must be a polygon that is free"),
+        ("GEOMETRYCOLLECTION EMPTY", "there must be a polygon that is free"),
+        ("POLYGON ((0 0, 1 1\0", "there is a zero byte in it"),
+    ],
+)  # fmt: skip
+def test_wkt_that_is_none_is_refused(tmp_path, text, message):
+    (tmp_path / "a.wkt").write_text(text)
+    with pytest.raises(FormatError, match=message):
+        read_area(tmp_path / "a.wkt", **SQUARES)
