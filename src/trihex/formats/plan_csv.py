@@ -19,7 +19,8 @@ HEADER = "robot,step,x,y,action,time"
 _BUFFER = 4 << 20  # bytes that the kernel fills in one call, some 10 ms
 
 
-def _words(tessellation: Tessellation) -> list[str]:
+def words_of_actions(tessellation: Tessellation) -> list[str]:
+    """Return the words of the column `action`; a table holds their indexes."""
     north, south = tessellation.direction_names
     return [*north, *south, "start", "wait", "jump"]
 
@@ -49,7 +50,7 @@ def write_plan_csv(plan: Plan, path: str | os.PathLike[str]) -> None:
                 *plan.jump_tables,
                 area.layout.origin,
                 area.layout.pitch,
-                *letters_of_words(_words(tessellation)),
+                *letters_of_words(words_of_actions(tessellation)),
                 state,
                 text,
             )
@@ -77,10 +78,15 @@ def read_plan_csv(path: str | os.PathLike[str], scenario: Scenario, content: byt
     OSError
         If the file cannot be read.
     """
-    area, tessellation = scenario.area, scenario.area.tessellation
-    words = _words(tessellation)
     text = check_text(read_bytes(path) if content is None else content, path)
-    table = parse_table(text, path, HEADER, {"action": words})
+    table = parse_table(text, path, HEADER, {"action": words_of_actions(scenario.area.tessellation)})
+    return plan_of_table(table, scenario, path)
+
+
+def plan_of_table(table: NDArray[np.int64], scenario: Scenario, path: object) -> Plan:
+    """Return the plan that a table of the columns of `HEADER` holds, shape (6, rows); see `read_plan_csv`."""
+    area, tessellation = scenario.area, scenario.area.tessellation
+    words = words_of_actions(tessellation)
     check_inside(table[2], table[3], area, path)
     line = np.arange(2, table.shape[1] + 2)
     order = _order(table)
@@ -159,7 +165,8 @@ def _actions(
     # What a name means depends on the cell that is left.
     number_of_name = [{name: k for k, name in enumerate(names)} for names in tessellation.direction_names]
     direction_of_word = np.array(
-        [[number.get(name, JUMP) for name in _words(tessellation)] for number in number_of_name], dtype=np.uint8
+        [[number.get(name, JUMP) for name in words_of_actions(tessellation)] for number in number_of_name],
+        dtype=np.uint8,
     )
     direction_of_word[:, wait] = WAIT
     actions = direction_of_word[orientation, word]
