@@ -18,7 +18,6 @@ Every error that a caller may want to catch descends from `TrihexError`, and fro
 from __future__ import annotations
 
 from collections.abc import Iterable
-from difflib import get_close_matches
 
 
 class TrihexError(Exception):
@@ -62,6 +61,8 @@ def check_choice(parameter: str, value: object, choices: Iterable[str], error: t
     names = list(choices)
     if isinstance(value, str) and value in names:
         return value
+    from difflib import get_close_matches  # 5 ms that only mistakes cost
+
     near = get_close_matches(str(value).lower(), names, n=1)
     hint = f"; did you mean {near[0]!r}?" if near else ""
     raise error(f"{parameter} must be one of {', '.join(names)}, not {value!r}{hint}")

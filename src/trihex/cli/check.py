@@ -1,0 +1,58 @@
+"""`trihex check`: the judge's word on a plan in a file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from trihex.cli.group import DONE, NO
+from trihex.cli.options import PATH, area_options, read_judged, rule_options
+from trihex.cli.outputs import check_outputs
+from trihex.cli.progress import bar
+from trihex.cli.types import Whole
+
+
+@click.command("check")
+@click.argument("plan", type=PATH)
+@click.argument("area", type=PATH, required=False)
+@area_options
+@rule_options
+@click.option("--limit", type=Whole(0), default=10, show_default=True, help="How many conflicts to list.")
+@click.option("--summary", type=PATH, metavar="FILE", help="The report as JSON; - writes it to the standard output.")
+def command(plan: Path, area: Path | None, limit: int, summary: Path | None, **options: Any) -> int:
+    """Tell whether a plan is safe.
+
+    PLAN is .npz, which holds area and rules itself, or .csv, which needs AREA and the options that it was made with.
+    Rules that are named here come before those of the file.
+
+    Exit status 1: the plan is unsafe.
+    """
+    from trihex.audit import audit_plan
+    from trihex.cli.texts import conflict_lines, verdict
+
+    check_outputs((summary, (), "a summary"))
+    judged = read_judged(plan, area, options)
+    with bar("judging", "actions") as progress:
+        audit = audit_plan(judged, limit=limit, progress=progress)
+    if summary:
+        _summarise(judged, audit, summary)
+    if str(summary) != "-":
+        robots, arrived = judged.scenario.robot_count, int(judged.arrived.sum())
+        click.echo(f"{plan}: {arrived} of {robots} robots arrive in {judged.steps} steps; {verdict(audit)}")
+    if audit.is_clean:
+        return DONE
+    click.echo("\n".join(conflict_lines(audit, limit)), err=str(summary) == "-")
+    return NO
+
+
+def _summarise(plan: Any, audit: Any, summary: Path) -> None:
+    from trihex.formats.report_json import report_text, write_report
+    from trihex.report import make_report
+
+    report = make_report(plan, audit=audit)
+    if str(summary) == "-":
+        click.echo(report_text(report), nl=False)
+    else:
+        write_report(report, summary)

@@ -1,0 +1,58 @@
+"""`trihex convert`: the same thing in another format."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from trihex.cli.options import PATH, area_options, read_judged, rule_options, wrong_use
+from trihex.cli.outputs import check_outputs
+
+
+@click.command("convert")
+@click.argument("source", type=PATH, metavar="IN")
+@click.argument("target", type=PATH, metavar="OUT")
+@click.option("--area", type=PATH, metavar="AREA", help="The area of a plan in .csv.")
+@area_options
+@rule_options
+def command(source: Path, target: Path, area: Path | None, **options: Any) -> None:
+    """Write what is in IN as the suffix of OUT says.
+
+    Plans: .csv and .npz; a plan in .csv needs --area and the options that it was made with. Areas: .map and .txt.
+    Scenarios: .toml and .txt. What a format cannot carry is refused.
+    """
+    from trihex.formats import PLAN_SUFFIXES, write_plan
+    from trihex.formats.files import read_bytes
+    from trihex.formats.recognise import format_of
+
+    form = format_of(read_bytes(source), source)
+    if form == "starts":
+        raise wrong_use(f"{source} holds starts, which have no other format")
+    if form in ("npz", "plan"):
+        check_outputs((target, PLAN_SUFFIXES, "a plan"))
+        write_plan(read_judged(source, area, options), target)
+        return
+    if area is not None:
+        raise wrong_use(f"--area is for plans; {source} holds none")
+    for name, value in options.items():
+        if value not in (None, ()):
+            raise wrong_use(f"--{name.replace('_', '-')} is for plans; {source} holds none")
+    _convert_area(source, target)
+
+
+def _convert_area(source: Path, target: Path) -> None:
+    from trihex.formats import AREA_SUFFIXES, SCENARIO_SUFFIXES, read_draft, write_area, write_scenario
+    from trihex.formats.letters import lost_in_letters
+
+    draft = read_draft(source)
+    is_area = draft.destinations is None and draft.robots is None and draft.random_count is None
+    check_outputs((target, AREA_SUFFIXES if is_area else SCENARIO_SUFFIXES, "an area" if is_area else "a scenario"))
+    if is_area:
+        write_area(draft.area, target)
+        return
+    scenario = draft.complete()
+    if target.suffix.lower() == ".txt" and (lost := lost_in_letters(scenario)):
+        raise wrong_use(f"letters cannot carry {', '.join(lost)}, as {source} has")
+    write_scenario(scenario, target, planner=draft.planner or "", planner_options=draft.planner_options)

@@ -1,0 +1,104 @@
+"""`trihex field`: distances and directions to the destinations, without any robots."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from trihex.cli.options import PATH, area_options, complete, read_described, rule_options
+from trihex.cli.outputs import check_outputs
+from trihex.cli.progress import bar
+
+
+@click.command("field")
+@click.argument("area", type=PATH)
+@area_options
+@rule_options
+@click.option("--out", type=PATH, metavar="FILE", help="The N-scheme as .npy, int32 [y, x].")
+@click.option(
+    "--directions",
+    type=PATH,
+    metavar="FILE",
+    help="The D-scheme as .npy, uint16 [y, x].",
+)
+@click.option("--picture", type=PATH, metavar="FILE", help="The N-scheme drawn, as .png or .svg.")
+@click.option("--directions-picture", type=PATH, metavar="FILE", help="The D-scheme drawn, as .png or .svg.")
+@click.option("--generations", type=PATH, metavar="DIR", help="A picture of every generation of the automaton.")
+def command(
+    area: Path,
+    out: Path | None,
+    directions: Path | None,
+    picture: Path | None,
+    directions_picture: Path | None,
+    generations: Path | None,
+    **options: Any,
+) -> None:
+    """Compute the N-scheme and the D-scheme.
+
+    The N-scheme holds for each cell the least cost to a destination, 2147483647 where none can be reached. The D-scheme
+    holds the directions that attain it: bit k is set where direction k of the tessellation is one of the best.
+    """
+    import numpy as np
+
+    from trihex.picture import SUFFIXES, picture_of_d_scheme, picture_of_n_scheme
+    from trihex.schemes import NOT_REACHED, make_d_scheme, make_n_scheme
+
+    check_outputs(
+        (out, (".npy",), "an N-scheme"),
+        (directions, (".npy",), "a D-scheme"),
+        (picture, SUFFIXES, "a picture"),
+        (directions_picture, SUFFIXES, "a picture"),
+    )
+    scenario = complete(read_described(area, options), needs_robots=False)
+    n_scheme = make_n_scheme(scenario)
+    if out:
+        _save(n_scheme.distance, out)
+    if picture:
+        picture_of_n_scheme(n_scheme).save(picture)
+    if directions or directions_picture:
+        d_scheme = make_d_scheme(n_scheme)
+        if directions:
+            _save(d_scheme.directions, directions)
+        if directions_picture:
+            picture_of_d_scheme(d_scheme).save(directions_picture)
+    reached = n_scheme.distance[n_scheme.distance != NOT_REACHED]
+    click.echo(
+        f"{scenario.area.name}: {reached.size} of {scenario.area.free_count} free cells reach a destination, "
+        f"the farthest at cost {np.max(reached)}"
+    )
+    if generations:
+        click.echo(f"{_draw_generations(scenario, generations)} generations in {generations}")
+
+
+def _save(array: Any, path: Path) -> None:
+    import numpy as np
+
+    from trihex.formats.files import new_file
+
+    with new_file(path) as part:
+        np.save(part, array)
+
+
+def _draw_generations(scenario: Any, folder: Path) -> int:
+    """Draw each generation; return how many there are."""
+    import numpy as np
+
+    from trihex.automaton import OBSTACLE, distance_generations
+    from trihex.picture import picture_of_n_scheme
+    from trihex.schemes import NOT_REACHED, NScheme
+
+    layout = scenario.area.layout
+    sites = layout.cell_to_site(np.arange(scenario.area.cell_count))
+    folder.mkdir(parents=True, exist_ok=True)
+    count = 0
+    with bar("drawing", "generations") as progress:
+        for states in distance_generations(scenario):
+            distance = np.full(layout.size, NOT_REACHED, dtype=np.int32)
+            distance[sites] = np.where(states == OBSTACLE, NOT_REACHED, states).reshape(-1)
+            drawn = picture_of_n_scheme(NScheme(scenario, distance), title=f"{scenario.area.name}, generation {count}")
+            drawn.save(folder / f"generation-{count:04d}.png")
+            count += 1
+            progress(count, count)
+    return count

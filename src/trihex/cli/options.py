@@ -1,0 +1,162 @@
+"""Options that several commands share, and the scenario or plan that they describe."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+from trihex.cli.types import Name, Pair, Whole
+
+if TYPE_CHECKING:
+    from trihex.formats.draft import Draft
+    from trihex.plan import Plan
+    from trihex.scenario import Scenario
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+PATH = click.Path(path_type=Path)
+
+
+def area_options(command: Command) -> Command:
+    """Add what tells how the area of a file is read."""
+    for option in (
+        click.option("--costs", type=Name("trihex.tessellation", "COSTS"), help="Costs of moves. [default: paper]"),
+        click.option(
+            "--neighbourhood",
+            type=Name("trihex.tessellation", "NEIGHBOURHOODS"),
+            help="All neighbours, or only those that share an edge. [default: full]",
+        ),
+        click.option(
+            "--tessellation",
+            type=Name("trihex.tessellation", "TESSELLATIONS"),
+            help="Shape of the cells. [default: hexagonal]",
+        ),
+    ):
+        command = option(command)
+    return command
+
+
+def rule_options(command: Command) -> Command:
+    """Add destinations and the rules of movement."""
+    for option in (
+        click.option(
+            "--destination-capacity",
+            type=Whole(1),
+            help="Robots that may enter one destination in one step. [default: any number]",
+        ),
+        click.option(
+            "--crossing",
+            type=Name("trihex.scenario", "CROSSINGS"),
+            help="Whether two robots may pass one lattice vertex in one step. [default: forbid]",
+        ),
+        click.option(
+            "--corners",
+            type=Name("trihex.scenario", "CORNERS"),
+            help="When a robot may pass a vertex beside barriers. [default: allow]",
+        ),
+        click.option("--waiting-cost", type=Whole(0), help="Cost of waiting one step. [default: that of an edge]"),
+        click.option("--destination", type=Pair("X,Y"), multiple=True, help="A destination; may be repeated."),
+    ):
+        command = option(command)
+    return command
+
+
+def robot_options(command: Command) -> Command:
+    """Add the robots."""
+    for option in (
+        click.option("--seed", type=Whole(0), help="What draws the robots. [default: 0]"),
+        click.option("--starts", type=PATH, metavar="FILE", help="CSV of their cells, with header x,y."),
+        click.option("--robots", type=Whole(0), help="How many robots to draw at random."),
+    ):
+        command = option(command)
+    return command
+
+
+def read_described(path: Path, options: dict[str, Any]) -> Draft:
+    """Return the draft in the file at `path`, changed by what the options say."""
+    from trihex.formats import read_draft
+
+    return _changed(read_draft(path), options)
+
+
+def _changed(draft: Draft, options: dict[str, Any]) -> Draft:
+    """Return the draft with what the options say in place of what it says."""
+    from dataclasses import replace
+
+    from trihex.area import cells_from
+    from trihex.errors import ScenarioError
+    from trihex.formats import read_starts
+    from trihex.tessellation import Tessellation
+
+    own = draft.area.tessellation
+    wanted = Tessellation(
+        options["tessellation"] or own.name,
+        options["neighbourhood"] or own.neighbourhood,
+        options["costs"] or own.costs,
+    )
+    if wanted != own:
+        draft = replace(draft, area=draft.area.with_tessellation(wanted))
+    rules = ("waiting_cost", "crossing", "corners", "destination_capacity")
+    changes: dict[str, Any] = {name: options[name] for name in rules if options.get(name) is not None}
+    if options.get("destination"):
+        changes["destinations"] = cells_from(draft.area, options["destination"], "--destination", ScenarioError)
+    count, starts, seed = options.get("robots"), options.get("starts"), options.get("seed")
+    if count is not None and starts is not None:
+        raise wrong_use("--robots and --starts exclude each other")
+    if count is not None:
+        changes |= {"random_count": count, "robots": None, "seed": seed}
+    elif seed is not None and (starts is not None or draft.random_count is None):
+        raise wrong_use("--seed draws robots: add --robots N")
+    elif starts is not None:
+        changes |= {"robots": read_starts(starts, draft.area), "random_count": None, "seed": None}
+    elif seed is not None:
+        changes["seed"] = seed
+    return replace(draft, **changes)
+
+
+def complete(draft: Draft, *, needs_robots: bool = True) -> Scenario:
+    """Return the scenario of a draft, or tell which option would complete it."""
+    if draft.destinations is None:
+        raise wrong_use("there is no destination: add --destination X,Y")
+    if needs_robots and draft.robots is None and draft.random_count is None:
+        raise wrong_use("there are no robots: add --robots N or --starts FILE")
+    return draft.complete()
+
+
+def read_judged(path: Path, area: Path | None, options: dict[str, Any]) -> Plan:
+    """Return the plan at `path`; what `area` and the options say comes before what it says itself."""
+    from dataclasses import replace
+
+    from trihex.area import Area
+    from trihex.formats import read_draft, read_plan
+    from trihex.formats.draft import draft_of
+    from trihex.formats.files import read_bytes
+    from trihex.formats.recognise import format_of
+
+    if format_of(read_bytes(path), path) != "npz":
+        if area is None:
+            raise wrong_use(f"{path} does not hold its area: add AREA")
+        return read_plan(path, complete(read_described(area, options), needs_robots=False))
+    plan = read_plan(path)
+    draft = draft_of(plan.scenario)
+    if area is not None:
+        other, own = read_draft(area).area, draft.area
+        if other.barriers.shape != own.barriers.shape:
+            sizes = [f"{one.width} x {one.height}" for one in (own, other)]
+            raise wrong_use(f"{path} needs an area of {sizes[0]} cells, {area} has {sizes[1]}")
+        draft = replace(draft, area=Area(own.tessellation, other.barriers, other.name, own.frame))
+    scenario = _changed(draft, options).complete()
+    if scenario == plan.scenario:
+        return plan
+    for name in ("name", "neighbourhood"):
+        was, now = (getattr(of.area.tessellation, name) for of in (plan.scenario, scenario))
+        if was != now:
+            raise wrong_use(f"{path} is a plan for {was}, not {now}: its actions are directions of that tessellation")
+    return replace(plan, scenario=scenario, optimal=False)
+
+
+def wrong_use(message: str) -> click.UsageError:
+    """Return the error for the command that runs."""
+    return click.UsageError(message, click.get_current_context())

@@ -1,0 +1,24 @@
+"""Outputs: whether they can be written is asked before the work, not after it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+from trihex.cli.options import wrong_use
+
+
+def check_outputs(*outputs: tuple[Path | None, Iterable[str], str]) -> None:
+    """Raise unless each (path, suffixes, kind of file) that is given can be written; no suffixes: any will do."""
+    from trihex.formats.files import check_output, suffix_of
+
+    seen: set[Path] = set()
+    for path, suffixes, kind in outputs:
+        if path is None or str(path) == "-":
+            continue
+        if allowed := tuple(suffixes):
+            suffix_of(path, allowed, kind)
+        check_output(path)
+        if path in seen:
+            raise wrong_use(f"two outputs must not have one name, {path}")
+        seen.add(path)

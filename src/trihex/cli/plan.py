@@ -1,0 +1,145 @@
+"""`trihex plan`: from an area to a plan and its report."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import click
+
+from trihex.cli.group import DONE, NO
+from trihex.cli.options import PATH, area_options, complete, read_described, robot_options, rule_options
+from trihex.cli.outputs import check_outputs
+from trihex.cli.progress import bar
+from trihex.cli.types import Name
+
+
+@click.command("plan")
+@click.argument("area", type=PATH)
+@area_options
+@rule_options
+@robot_options
+@click.option("--planner", type=Name("trihex.planners", "PLANNERS"), help="Who plans. [default: fcost]")
+@click.option("--planner-option", metavar="NAME=VALUE", multiple=True, help="One of its options; may be repeated.")
+@click.option("--out", type=PATH, metavar="PLAN", help="The plan, as .csv or .npz.")
+@click.option("--summary", type=PATH, metavar="FILE", help="The report as JSON; - writes it to the standard output.")
+@click.option("--picture", type=PATH, metavar="FILE", help="The plan drawn, as .png or .svg.")
+@click.option("--write-scenario", type=PATH, metavar="FILE", help="All that was planned, as a scenario .toml.")
+def command(
+    area: Path,
+    planner: str | None,
+    planner_option: tuple[str, ...],
+    out: Path | None,
+    summary: Path | None,
+    picture: Path | None,
+    write_scenario: Path | None,
+    **options: Any,
+) -> int:
+    """Plan collision-free paths for all robots.
+
+    AREA is a MovingAI .map, letters .txt (. free, B barrier, D destination, small letters robots), or a scenario .toml,
+    which holds rules, destinations and robots as well; options come before what the file says.
+
+    Exit status 1: some robots cannot arrive. The others are planned and all outputs are written.
+    """
+    from trihex.formats import PLAN_SUFFIXES, write_plan
+    from trihex.formats import write_scenario as write_scenario_file
+    from trihex.picture import SUFFIXES, picture_of_plan
+
+    check_outputs(
+        (out, PLAN_SUFFIXES, "a plan"),
+        (summary, (), "a summary"),
+        (picture, SUFFIXES, "a picture"),
+        (write_scenario, (".toml",), "a scenario"),
+    )
+    begin = perf_counter()
+    draft = read_described(area, options)
+    scenario = complete(draft)
+    planner = planner or draft.planner or "fcost"
+    planner_options = {**(draft.planner_options if planner == draft.planner else {}), **_parsed(planner_option)}
+    _check_options(planner, planner_options)
+    seconds = {"read": perf_counter() - begin}
+    report = _reported(scenario, planner, planner_options, seconds)
+
+    if out:
+        write_plan(report.plan, out)
+    if picture:
+        picture_of_plan(report.plan).save(picture)
+    if write_scenario:
+        write_scenario_file(scenario, write_scenario, planner=planner, planner_options=planner_options)
+    return _told(report, summary)
+
+
+def _reported(scenario: Any, planner: str, planner_options: dict[str, Any], seconds: dict[str, float]) -> Any:
+    """Plan, judge and report; add to `seconds` how long each part took."""
+    from trihex.audit import audit_plan
+    from trihex.bounds import make_lower_bound
+    from trihex.planners import make_plan
+    from trihex.report import make_report
+    from trihex.schemes import make_n_scheme
+
+    begin = perf_counter()
+    n_scheme = make_n_scheme(scenario)
+    seconds["field"] = perf_counter() - begin
+    begin = perf_counter()
+    with bar("planning", "robots") as progress:
+        plan = make_plan(scenario, planner, n_scheme=n_scheme, progress=progress, **planner_options)
+    seconds["plan"] = perf_counter() - begin
+    begin = perf_counter()
+    with bar("judging", "actions") as progress:
+        audit = audit_plan(plan, progress=progress)
+    seconds["audit"] = perf_counter() - begin
+    bound = None
+    if not plan.optimal:
+        with bar("bounding", "rounds") as progress:
+            bound = make_lower_bound(n_scheme, progress=progress)
+    return make_report(plan, n_scheme=n_scheme, audit=audit, lower_bound=bound, seconds=seconds)
+
+
+def _parsed(planner_option: tuple[str, ...]) -> dict[str, Any]:
+    """Return planner options by name; numbers, true and false are read as such."""
+    from json import loads
+
+    from trihex.cli.options import wrong_use
+
+    values: dict[str, Any] = {}
+    for text in planner_option:
+        name, equals, value = text.partition("=")
+        if not equals:
+            raise wrong_use(f"--planner-option must be NAME=VALUE, not {text!r}")
+        try:
+            values[name.strip()] = loads(value)
+        except ValueError:
+            values[name.strip()] = value
+    return values
+
+
+def _check_options(planner: str, planner_options: dict[str, Any]) -> None:
+    from trihex.errors import PlanError, check_choice
+    from trihex.planners import options_of
+
+    known = options_of(planner)
+    for name in planner_options:
+        if not known:
+            raise PlanError(f"planner {planner!r} has no options, so not {name!r}")
+        check_choice(f"option of planner {planner!r}", name, known, PlanError)
+
+
+def _told(report: Any, summary: Path | None) -> int:
+    """Print the report, tell what is amiss, and return the exit status."""
+    from trihex.cli.texts import conflict_lines, report_lines, stranded_line
+    from trihex.formats.report_json import report_text, write_report
+
+    if summary and str(summary) != "-":
+        write_report(report, summary)
+    if str(summary) == "-":
+        click.echo(report_text(report), nl=False)
+    else:
+        click.echo("\n".join(report_lines(report)))
+    if not report.audit.is_clean:
+        click.echo("\n".join(conflict_lines(report.audit, 10)), err=True)
+    if report.unreachable_robots.size:
+        line = stranded_line(report.plan.scenario, report.unreachable_robots.tolist())
+        click.echo(f"trihex: {line}", err=True)
+    return NO if report.unreachable_robots.size or not report.audit.is_clean else DONE

@@ -1,0 +1,64 @@
+"""Texts: reports and tables as a person reads them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from trihex.audit import Audit
+    from trihex.report import Report
+    from trihex.scenario import Scenario
+
+_MOST_ROBOTS = 100
+
+
+def report_lines(report: Report) -> list[str]:
+    """Return the report in a few lines."""
+    plan, scenario = report.plan, report.plan.scenario
+    area, tessellation = scenario.area, scenario.area.tessellation
+    gap = "none" if report.gap is None else f"{100 * report.gap:.2f} %"
+    seconds = ", ".join(f"{part} {took:.2f} s" for part, took in report.seconds.items())
+    return [
+        f"{area.name or 'area'}: {area.width} x {area.height} cells, {area.free_count} free; {tessellation.name}, "
+        f"{tessellation.neighbourhood} neighbourhood, costs {tessellation.costs}",
+        f"{plan.planner or 'plan'}: {report.arrived_count} of {scenario.robot_count} robots arrive, "
+        f"the last in step {report.steps}",
+        f"total time {report.total_time} ({report.total_distance} moving, {report.total_waiting} waiting), "
+        f"lower bound {report.lower_bound} ({report.lower_bound_name}), gap {gap}",
+        verdict(report.audit),
+        *([seconds] if seconds else []),
+    ]
+
+
+def verdict(audit: Audit) -> str:
+    """Return what the judge found, in a line."""
+    if audit.is_clean:
+        return "safe: no conflicts"
+    return f"unsafe: {audit.conflict_count} conflict{'s' * (audit.conflict_count != 1)}"
+
+
+def conflict_lines(audit: Audit, limit: int) -> list[str]:
+    """Return the first conflicts, a line each, and how many more there are."""
+    lines = [str(conflict) for conflict in audit.conflicts[:limit]]
+    more = audit.conflict_count - len(lines)
+    return [*lines, f"and {more} more"] if more else lines
+
+
+def stranded_line(scenario: Scenario, robots: Sequence[int]) -> str:
+    """Return which robots cannot arrive, and where they stand."""
+    named = [f"{robot} at {scenario.area.name_of_cell(int(scenario.robots[robot]))}" for robot in robots[:_MOST_ROBOTS]]
+    more = f", and {len(robots) - len(named)} more" if len(robots) > len(named) else ""
+    return f"{len(robots)} of {scenario.robot_count} robots cannot reach a destination: {', '.join(named)}{more}"
+
+
+def table_lines(header: Sequence[str], rows: Iterable[Sequence[str]], left: int = 1) -> list[str]:
+    """Return a table in columns, the first `left` of them flush left and the others flush right."""
+    cells = [list(header), *(list(row) for row in rows)]
+    widths = [max(len(row[column]) for row in cells) for column in range(len(header))]
+    lines = []
+    for row in cells:
+        shown = [text.ljust(width) for text, width in zip(row[:left], widths, strict=False)]
+        shown += [text.rjust(width) for text, width in zip(row[left:], widths[left:], strict=True)]
+        lines.append("  ".join(shown).rstrip())
+    return [lines[0], "-" * len(lines[0]), *lines[1:]]

@@ -1,0 +1,114 @@
+"""Types of options: names, whole numbers and cells, each with its own message."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+import click
+
+from trihex.errors import TrihexError, check_choice
+
+
+class Name(click.ParamType):  # type: ignore[type-arg]
+    """One of the names that `attribute` of `module` lists; the module is imported when they are needed."""
+
+    name = "name"
+
+    def __init__(self, module: str, attribute: str) -> None:
+        self.module, self.attribute = module, attribute
+
+    @property
+    def choices(self) -> tuple[str, ...]:
+        """The names."""
+        return tuple(getattr(import_module(self.module), self.attribute))
+
+    def get_metavar(self, param: click.Parameter, ctx: click.Context | None = None) -> str:
+        """Show the names where an option is described."""
+        return f"[{'|'.join(self.choices)}]"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        """Return `value` if it is one of the names."""
+        try:
+            return check_choice(_name_of(param), value, self.choices, TrihexError)
+        except TrihexError as error:
+            raise click.UsageError(str(error), ctx) from None
+
+
+class Names(Name):
+    """Several of the names, parted by commas."""
+
+    def get_metavar(self, param: click.Parameter, ctx: click.Context | None = None) -> str:
+        """Show the names where an option is described."""
+        return ",".join(self.choices)
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return the names in the order given, each once."""
+        one = super().convert
+        return tuple(dict.fromkeys(one(part.strip(), param, ctx) for part in str(value).split(",")))
+
+
+class Whole(click.ParamType):  # type: ignore[type-arg]
+    """A whole number from `least` on."""
+
+    name = "number"
+
+    def __init__(self, least: int) -> None:
+        self.least = least
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int:
+        """Return the number."""
+        number = _whole(str(value))
+        if number is None or not self.least <= number <= 2**30:
+            rule = f"a whole number from {self.least} to {2**30}"
+            raise click.UsageError(f"{_name_of(param)} must be {rule}, not {value!r}", ctx)
+        return number
+
+
+class Share(click.ParamType):  # type: ignore[type-arg]
+    """A number from 0 to 1."""
+
+    name = "share"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        """Return the number."""
+        try:
+            number = float(value)
+        except ValueError:
+            number = -1.0
+        if not 0 <= number <= 1:
+            raise click.UsageError(f"{_name_of(param)} must be a number from 0 to 1, not {value!r}", ctx)
+        return number
+
+
+class Pair(click.ParamType):  # type: ignore[type-arg]
+    """Two whole numbers, as in ``118,120``."""
+
+    name = "pair"
+
+    def __init__(self, what: str) -> None:
+        self.what = what
+
+    def get_metavar(self, param: click.Parameter, ctx: click.Context | None = None) -> str:
+        """Show what the numbers mean."""
+        return self.what
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[int, int]:
+        """Return the two numbers."""
+        numbers = [_whole(part) for part in str(value).split(",")]
+        if len(numbers) != 2 or None in numbers:
+            raise click.UsageError(f"{_name_of(param)} must be {self.what}, two whole numbers, not {value!r}", ctx)
+        return numbers[0], numbers[1]  # type: ignore[return-value]
+
+
+def _name_of(param: click.Parameter | None) -> str:
+    if param is None:
+        return "it"
+    return max(param.opts, key=len) if param.param_type_name == "option" else (param.name or "it").upper()
+
+
+def _whole(text: str) -> int | None:
+    try:
+        return int(text) if len(text) <= 20 else None
+    except ValueError:
+        return None
