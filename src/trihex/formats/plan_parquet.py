@@ -126,7 +126,7 @@ def _indexes(column: Any, words: list[str], path: object) -> NDArray[np.int64]:
     index_of_word = {word: index for index, word in reversed(list(enumerate(words)))}
     known = encoded.dictionary.to_pylist()
     for word in known:
-        check_choice(f"{path}: action", word, index_of_word, FormatError)
+        check_choice(f"{path}: action", word, dict.fromkeys(words), FormatError)
     index = np.array([index_of_word[word] for word in known], dtype=np.int64)
     return np.asarray(index[encoded.indices.to_numpy()])
 
