@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from trihex.automaton import make_distance_automaton as make_distance_automaton
     from trihex.automaton import make_distance_configuration as make_distance_configuration
     from trihex.bounds import LowerBound as LowerBound
+    from trihex.bounds import cut_bound as cut_bound
     from trihex.bounds import distance_bound as distance_bound
     from trihex.bounds import make_lower_bound as make_lower_bound
     from trihex.bounds import slot_bound as slot_bound
@@ -38,6 +39,7 @@ if TYPE_CHECKING:
     from trihex.formats import write_plan as write_plan
     from trihex.formats import write_scenario as write_scenario
     from trihex.formats import write_starts as write_starts
+    from trihex.formats.report_json import write_report as write_report
     from trihex.frame import Frame as Frame
     from trihex.generators import GENERATORS as GENERATORS
     from trihex.generators import make_caves_area as make_caves_area
@@ -68,7 +70,6 @@ if TYPE_CHECKING:
     from trihex.schemes import make_d_scheme as make_d_scheme
     from trihex.schemes import make_n_scheme as make_n_scheme
     from trihex.tessellation import Tessellation as Tessellation
-    from trihex.formats.report_json import write_report as write_report
 
 _MODULE_OF_NAME = {
     "Area": "area",
@@ -96,6 +97,7 @@ _MODULE_OF_NAME = {
     "TooLargeError": "errors",
     "TrihexError": "errors",
     "audit_plan": "audit",
+    "cut_bound": "bounds",
     "distance_bound": "bounds",
     "distance_generations": "automaton",
     "draw_area": "plotting",

@@ -16,11 +16,17 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from trihex.chokes import Crowd, Cut, find_crowded_nodes, find_cuts, make_crowd
+from trihex.gates import least_arrivals, make_gate_network
 from trihex.record import Record
 from trihex.scenario import Scenario
 from trihex.schemes import NOT_REACHED, NScheme
 
 _BUDGET = 2_000_000
+# What the cut bound may cost: sites visited by all searches, slots in memory (some 50 bytes each), looks at slots.
+_MOST_VISITS = 100_000_000
+_MOST_SLOTS = 5_000_000
+_MOST_LOOKS = 200_000_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +54,7 @@ def make_lower_bound(n_scheme: NScheme, *, progress: Callable[[int, int], None] 
     >>> make_lower_bound(make_n_scheme(scenario)).value
     50
     """
-    makers = (distance_bound, slot_bound)
+    makers = (distance_bound, slot_bound, cut_bound)
     best = None
     for done, make in enumerate(makers):
         bound = make(n_scheme)
@@ -75,9 +81,73 @@ def slot_bound(n_scheme: NScheme) -> LowerBound:
     from trihex.kernels import bounds as kernels
 
     scenario = n_scheme.scenario
-    steps = _at_robots(n_scheme, steps_field(scenario))
-    slots = np.sort(steps[steps > 0]).astype(np.int64)
+    slots = np.sort(make_crowd(scenario).steps)
     return LowerBound("slot", _least_cost(n_scheme, int(kernels.queue_up(slots, entries_per_step(scenario)))))
+
+
+def cut_bound(
+    n_scheme: NScheme, *, most_gates: int = 64, progress: Callable[[int, int], None] | None = None
+) -> LowerBound:
+    """Robots hinder each other at gates only: at nested least cuts, and where most shortest ways meet.
+
+    Parameters
+    ----------
+    n_scheme : NScheme
+    most_gates : int
+        Fewer are taken where the searches from all gates would take more than about a second.
+    progress : callable, optional
+        Called with (robots served, robots).
+    """
+    return LowerBound(
+        "cut", _least_cost(n_scheme, _steps_past_gates(make_crowd(n_scheme.scenario), most_gates, progress))
+    )
+
+
+def _steps_past_gates(crowd: Crowd, most_gates: int, progress: Callable[[int, int], None] | None) -> int:
+    """Return how many steps all robots of a crowd need at least in all."""
+    free_cells, entries = crowd.scenario.area.free_count, entries_per_step(crowd.scenario)
+    cuts = find_cuts(crowd, most_searches=_MOST_VISITS // (4 * free_cells) + 1)
+    queued = _steps_past_cuts(crowd, cuts, entries)
+    gates = _choose_gates(crowd, cuts, min(most_gates, _MOST_VISITS // free_cells))
+    horizon = int(queued.max(initial=0)) * 5 // 4 + 100
+    horizon = min(horizon, _MOST_SLOTS // max(gates.size, 1))
+    if gates.size == 0 or horizon == 0:
+        return int(queued.sum())
+    total, served, last = least_arrivals(crowd, make_gate_network(crowd, gates), horizon, _MOST_LOOKS, progress)
+    # Whoever is not served by the last step looked at arrives later, no more in a step than can enter.
+    left = np.arange(crowd.sites.size - served)
+    total += int((last + 1 + left // entries).sum())
+    return max(total, int(queued.sum()))
+
+
+def _steps_past_cuts(crowd: Crowd, cuts: list[Cut], entries: int) -> NDArray[np.int64]:
+    """Return a least number of steps of each robot in some order, if of those behind a cut only `width` pass it a step.
+
+    Where a robot passes the cut it is known how soon it can arrive. So the numbers of steps of those behind the first
+    cut are delayed until each occurs at most `width` times, then together with the next ones at the next cut.
+    """
+    from trihex.kernels import bounds as kernels
+
+    queued = crowd.steps[:0]
+    is_behind = np.zeros(crowd.sites.size, dtype=bool)
+    for cut in cuts:
+        new = cut.behind[~is_behind[cut.behind]]
+        is_behind[new] = True
+        queued = np.sort(np.concatenate([queued, crowd.steps[new]]))
+        kernels.queue_up(queued, cut.width)
+    queued = np.sort(np.concatenate([queued, crowd.steps[~is_behind]]))
+    kernels.queue_up(queued, max(entries, 1))
+    return queued
+
+
+def _choose_gates(crowd: Crowd, cuts: list[Cut], most: int) -> NDArray[np.int32]:
+    """Return up to `most` nodes: the cut for all robots, the cuts with the longest queues, the most crowded nodes."""
+    gates = np.empty(0, dtype=np.int32)
+    for cut in cuts[-1:] + sorted(cuts[:-1], key=lambda cut: -cut.behind.size / cut.width):
+        more = np.union1d(gates, cut.nodes)
+        if more.size <= most:
+            gates = more
+    return np.union1d(gates, find_crowded_nodes(crowd, most)[: min(most - gates.size, most // 2)])
 
 
 def entries_per_step(scenario: Scenario) -> int:
@@ -102,23 +172,6 @@ def entries_per_step(scenario: Scenario) -> int:
     if scenario.destination_capacity is not None:
         ways_of_destination = np.minimum(ways_of_destination, scenario.destination_capacity)
     return int(min(ways_of_destination.sum(), np.unique(name[name >= 0]).size))
-
-
-def steps_field(scenario: Scenario) -> NDArray[np.int32]:
-    """Return the least number of steps from each site to a destination, shape (layout.size,)."""
-    from trihex.kernels import bounds as kernels
-
-    layout = scenario.area.layout
-    steps = np.full(layout.size, NOT_REACHED, dtype=np.int32)
-    queue = np.empty(scenario.area.free_count, dtype=np.int32)
-    head, tail = 0, scenario.destinations.size
-    queue[:tail] = layout.cell_to_site(scenario.destinations)
-    steps[queue[:tail]] = 0
-    while head < tail:
-        end = min(tail, head + _BUDGET)
-        tail = kernels.count_steps(scenario.moves, layout.offset_of_direction, steps, queue, head, tail, _BUDGET)
-        head = end
-    return steps
 
 
 def _at_robots(n_scheme: NScheme, field: NDArray[np.int32]) -> NDArray[np.int64]:

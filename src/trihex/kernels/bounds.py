@@ -4,8 +4,6 @@ from numba import njit, types
 
 from trihex.kernels.signatures import IN_I32, IN_U16, OUT_BOOL, OUT_I32, OUT_I64, TABLE_I32
 
-NOT_REACHED = 2**31 - 1
-
 
 @njit(types.int64(IN_U16, TABLE_I32, OUT_I32, OUT_I32, types.int64, types.int64, types.int64), cache=True, nogil=True)
 def count_steps(moves, offset, steps, queue, head, tail, budget):
@@ -16,7 +14,7 @@ def count_steps(moves, offset, steps, queue, head, tail, budget):
         for k in range(offset.shape[1]):
             if bits >> k & 1:
                 target = site + offset[site & 1, k]
-                if steps[target] == NOT_REACHED:
+                if steps[target] < 0:
                     steps[target] = steps[site] + 1
                     queue[tail] = target
                     tail += 1
