@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from trihex.bounds import distance_bound as distance_bound
     from trihex.bounds import make_lower_bound as make_lower_bound
     from trihex.bounds import slot_bound as slot_bound
+    from trihex.comparison import Comparison as Comparison
+    from trihex.comparison import make_comparison as make_comparison
     from trihex.errors import AreaError as AreaError
     from trihex.errors import AutomatonError as AutomatonError
     from trihex.errors import FormatError as FormatError
@@ -77,6 +79,7 @@ _MODULE_OF_NAME = {
     "Audit": "audit",
     "AutomatonError": "errors",
     "CellularAutomaton": "automaton",
+    "Comparison": "comparison",
     "Conflict": "audit",
     "DScheme": "schemes",
     "FormatError": "errors",
@@ -107,6 +110,7 @@ _MODULE_OF_NAME = {
     "draw_n_scheme": "plotting",
     "draw_plan": "plotting",
     "make_caves_area": "generators",
+    "make_comparison": "comparison",
     "make_d_scheme": "schemes",
     "make_distance_automaton": "automaton",
     "make_distance_configuration": "automaton",
