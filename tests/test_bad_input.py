@@ -6,7 +6,9 @@
 import pytest
 from click.testing import CliRunner
 
+from trihex import Area, Scenario, write_plan
 from trihex.cli import main
+from trihex.plan import plan_from_lists
 
 MAP = "type octile\nheight 3\nwidth 4\nmap\n....\n.@..\n....\n"
 # What lies in the working folder of every row.
@@ -80,8 +82,13 @@ CASES = {
     "two outputs of one name": (None, [*ONE, "--picture", "p.png", "--summary", "p.png"], "two outputs must not have one name, p.png"),
     # other commands
     "plan without its area": (None, ["check", "plan.csv"], "plan.csv does not hold its area: add AREA"),
+    "waypoints in cells": (None, [*ONE, "--waypoints", "w.csv"], "--waypoints are in metres: add --cell-size"),
     "plan of another area": (None, ["check", "plan.csv", "closed.map", "--destination", "0,0"], "plan.csv: line 3: cell (3, 0) lies outside the area: x is 0..2, y is 0..0"),
     "plan of another cost": (None, ["check", "plan.csv", "world.map", *AIM, "--costs", "euclidean"], "plan.csv: line 3: time must rise by 1000 for 'SE', not by 10; the plan was made with other costs or another waiting cost"),
+    "npz of another tessellation": (None, ["check", "plan.npz", "--tessellation", "square"], "plan.npz is a plan for tessellation hexagonal, which cannot be read as square"),
+    "npz of another place": (None, ["check", "plan.npz", "--cell-size", "0.5"], "plan.npz holds its area itself, so how to read one cannot be told"),
+    "npz of another size": (None, ["check", "plan.npz", "closed.map"], "plan.npz needs an area of 4 x 3 cells, closed.map has 3 x 1"),
+    "waypoints without metres": (None, ["convert", "plan.npz", "p.geojson"], "the area is measured in cells, not in metres"),
     "an area is no plan": (None, ["check", "world.map", "world.map", *AIM], "world.map: must hold a plan*, not movingai"),
     "movie of no kind": (None, ["animate", "plan.csv", "world.map", *AIM, "--out", "p.avi"], "p.avi: the suffix of a movie must be one of *, not '.avi'"),
     "field without destination": (None, ["field", "world.map"], "there is no destination: add --destination X,Y"),
@@ -91,13 +98,15 @@ CASES = {
     "area of no cells": (None, ["generate", "random", "--size", "0,9", "--out", "a.map"], "width must be a whole number from 1, not 0"),
     "area beyond all size": (None, ["generate", "random", "--size", "99999999,99999999", "--out", "a.map"], "an area may have at most 2000000000 cells, not 99999999 x 99999999"),
     "robots as an area": (None, ["convert", "world.txt", "world2.map"], "world2.map: the suffix of a scenario must be one of .toml, .txt, not '.map'"),
-    "plan as an area": (None, ["convert", "plan.csv", "a.map"], "a.map: the suffix of a plan must be one of *, not '.map'"),
+    "plan as an area": (None, ["convert", "plan.csv", "a.map"], "a.map: the suffix of a plan or waypoints must be one of *, not '.map'"),
     "rules for an area": (None, ["convert", "world.map", "a.txt", *AIM], "--destination is for plans; world.map holds none"),
 }  # fmt: skip
 
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
+    scenario = Scenario(Area("hexagonal", [[0, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 0]]), [(3, 0)], [(2, 0)])
+    write_plan(plan_from_lists(scenario, [[2]]), tmp_path / "plan.npz")
     for name, text in FILES.items():
         (tmp_path / name).write_text(text)
     monkeypatch.chdir(tmp_path)

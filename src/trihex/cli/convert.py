@@ -9,6 +9,7 @@ import click
 
 from trihex.cli.options import PATH, area_options, read_judged, rule_options, wrong_use
 from trihex.cli.outputs import check_outputs
+from trihex.cli.types import Metres
 
 
 @click.command("convert")
@@ -17,25 +18,35 @@ from trihex.cli.outputs import check_outputs
 @click.option("--area", type=PATH, metavar="AREA", help="The area of a plan in .csv.")
 @area_options
 @rule_options
-def command(source: Path, target: Path, area: Path | None, **options: Any) -> None:
+@click.option("--waypoints", is_flag=True, help="Where each robot is when, in metres and seconds, instead of its plan.")
+@click.option("--speed", type=Metres(), default=1.0, show_default=True, help="Of the robots, in metres a second.")
+def command(source: Path, target: Path, area: Path | None, waypoints: bool, speed: float, **options: Any) -> None:
     """Write what is in IN as the suffix of OUT says.
 
-    Plans: .csv and .npz; a plan in .csv needs --area and the options that it was made with. Areas: .map and .txt.
-    Scenarios: .toml and .txt. What a format cannot carry is refused.
+    Plans: .csv, .npz and .parquet, .txt for mapf-visualizer; a plan in .csv or .parquet needs --area and the options
+    that it was made with. Waypoints of a plan: .csv (with --waypoints), .yaml, .json, .geojson, .sqlite. Areas: .map,
+    .txt and images. Scenarios: .toml and .txt. What a format cannot carry is refused.
     """
-    from trihex.formats import PLAN_SUFFIXES, write_plan
+    from trihex.formats import PLAN_SUFFIXES, WAYPOINT_SUFFIXES, write_plan, write_waypoints
     from trihex.formats.files import read_bytes
     from trihex.formats.recognise import format_of
 
     form = format_of(read_bytes(source), source)
     if form == "starts":
         raise wrong_use(f"{source} holds starts, which have no other format")
-    if form in ("npz", "plan"):
-        check_outputs((target, PLAN_SUFFIXES, "a plan"))
-        write_plan(read_judged(source, area, options), target)
+    if form in ("npz", "plan", "parquet"):
+        if waypoints:
+            check_outputs((target, WAYPOINT_SUFFIXES, "waypoints"))
+        else:
+            check_outputs((target, dict.fromkeys((*PLAN_SUFFIXES, *WAYPOINT_SUFFIXES)), "a plan or waypoints"))
+        plan = read_judged(source, area, options)
+        if waypoints or target.suffix.lower() not in PLAN_SUFFIXES:
+            write_waypoints(plan, target, speed=speed)
+        else:
+            write_plan(plan, target)
         return
-    if area is not None:
-        raise wrong_use(f"--area is for plans; {source} holds none")
+    if area is not None or waypoints:
+        raise wrong_use(f"--{'area' if area else 'waypoints'} is for plans; {source} holds none")
     for name, value in options.items():
         if value not in (None, ()):
             raise wrong_use(f"--{name.replace('_', '-')} is for plans; {source} holds none")

@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from trihex.cli.types import Name, Pair, Whole
+from trihex.cli.progress import bar
+from trihex.cli.types import Metres, Name, Pair, Share, Whole
 
 if TYPE_CHECKING:
+    from trihex.area import Area
     from trihex.formats.draft import Draft
     from trihex.plan import Plan
     from trihex.scenario import Scenario
@@ -19,9 +21,25 @@ Command = TypeVar("Command", bound=Callable[..., Any])
 PATH = click.Path(path_type=Path)
 
 
+# What `formats.options.AreaOptions` takes besides the tessellation.
+_PLACE = ("cell_size", "robot_radius", "unknown", "threshold", "invert", "resolution")
+
+
 def area_options(command: Command) -> Command:
     """Add what tells how the area of a file is read."""
     for option in (
+        click.option("--resolution", type=Metres(), help="Images: metres for each pixel."),
+        click.option("--invert", is_flag=True, default=None, help="Images: dark pixels are free."),
+        click.option(
+            "--threshold", type=Share(), help="Images: brightness from which on a pixel is free. [default: 0.5]"
+        ),
+        click.option(
+            "--unknown",
+            type=Name("trihex.formats.options", "UNKNOWNS"),
+            help="ROS maps: what unknown ground is. [default: barrier]",
+        ),
+        click.option("--robot-radius", type=Metres(), help="In metres: robots touch neither walls nor each other."),
+        click.option("--cell-size", type=Metres(), help="Edge step in metres."),
         click.option("--costs", type=Name("trihex.tessellation", "COSTS"), help="Costs of moves. [default: paper]"),
         click.option(
             "--neighbourhood",
@@ -78,7 +96,16 @@ def read_described(path: Path, options: dict[str, Any]) -> Draft:
     """Return the draft in the file at `path`, changed by what the options say."""
     from trihex.formats import read_draft
 
-    return _changed(read_draft(path), options)
+    with bar("covering", "rows") as progress:
+        draft = read_draft(
+            path,
+            options["tessellation"],
+            neighbourhood=options["neighbourhood"],
+            costs=options["costs"],
+            progress=progress,
+            **{name: options[name] for name in _PLACE},
+        )
+    return _changed(draft, options)
 
 
 def _changed(draft: Draft, options: dict[str, Any]) -> Draft:
@@ -88,16 +115,7 @@ def _changed(draft: Draft, options: dict[str, Any]) -> Draft:
     from trihex.area import cells_from
     from trihex.errors import ScenarioError
     from trihex.formats import read_starts
-    from trihex.tessellation import Tessellation
 
-    own = draft.area.tessellation
-    wanted = Tessellation(
-        options["tessellation"] or own.name,
-        options["neighbourhood"] or own.neighbourhood,
-        options["costs"] or own.costs,
-    )
-    if wanted != own:
-        draft = replace(draft, area=draft.area.with_tessellation(wanted))
     rules = ("waiting_cost", "crossing", "corners", "destination_capacity")
     changes: dict[str, Any] = {name: options[name] for name in rules if options.get(name) is not None}
     if options.get("destination"):
@@ -129,7 +147,6 @@ def read_judged(path: Path, area: Path | None, options: dict[str, Any]) -> Plan:
     """Return the plan at `path`; what `area` and the options say comes before what it says itself."""
     from dataclasses import replace
 
-    from trihex.area import Area
     from trihex.formats import read_draft, read_plan
     from trihex.formats.draft import draft_of
     from trihex.formats.files import read_bytes
@@ -140,21 +157,27 @@ def read_judged(path: Path, area: Path | None, options: dict[str, Any]) -> Plan:
             raise wrong_use(f"{path} does not hold its area: add AREA")
         return read_plan(path, complete(read_described(area, options), needs_robots=False))
     plan = read_plan(path)
+    own = plan.scenario.area.tessellation
+    for name, was in (("tessellation", own.name), ("neighbourhood", own.neighbourhood)):
+        if options[name] not in (None, was):
+            raise wrong_use(f"{path} is a plan for {name} {was}, which cannot be read as {options[name]}")
     draft = draft_of(plan.scenario)
+    place = {name: options[name] for name in _PLACE}
     if area is not None:
-        other, own = read_draft(area).area, draft.area
-        if other.barriers.shape != own.barriers.shape:
-            sizes = [f"{one.width} x {one.height}" for one in (own, other)]
-            raise wrong_use(f"{path} needs an area of {sizes[0]} cells, {area} has {sizes[1]}")
-        draft = replace(draft, area=Area(own.tessellation, other.barriers, other.name, own.frame))
+        draft = replace(draft, area=_same_size(read_draft(area, own, **place).area, draft.area, area, path))
+    elif any(value is not None for value in place.values()):
+        raise wrong_use(f"{path} holds its area itself, so how to read one cannot be told")
+    draft = replace(draft, area=draft.area.with_tessellation(replace(own, costs=options["costs"] or own.costs)))
     scenario = _changed(draft, options).complete()
-    if scenario == plan.scenario:
-        return plan
-    for name in ("name", "neighbourhood"):
-        was, now = (getattr(of.area.tessellation, name) for of in (plan.scenario, scenario))
-        if was != now:
-            raise wrong_use(f"{path} is a plan for {was}, not {now}: its actions are directions of that tessellation")
-    return replace(plan, scenario=scenario, optimal=False)
+    return plan if scenario == plan.scenario else replace(plan, scenario=scenario, optimal=False)
+
+
+def _same_size(area: Area, own: Area, path: Path, of_plan: Path) -> Area:
+    """Return `area` if it has the size of the plan's own."""
+    sizes = [f"{one.width} x {one.height}" for one in (own, area)]
+    if sizes[0] != sizes[1]:
+        raise wrong_use(f"{of_plan} needs an area of {sizes[0]} cells, {path} has {sizes[1]}")
+    return area
 
 
 def wrong_use(message: str) -> click.UsageError:

@@ -9,10 +9,10 @@ from typing import Any
 import click
 
 from trihex.cli.group import DONE, NO
-from trihex.cli.options import PATH, area_options, complete, read_described, robot_options, rule_options
+from trihex.cli.options import PATH, area_options, complete, read_described, robot_options, rule_options, wrong_use
 from trihex.cli.outputs import check_outputs
 from trihex.cli.progress import bar
-from trihex.cli.types import Name
+from trihex.cli.types import Metres, Name
 
 
 @click.command("plan")
@@ -25,6 +25,8 @@ from trihex.cli.types import Name
 @click.option("--out", type=PATH, metavar="PLAN", help="The plan, as .csv or .npz.")
 @click.option("--summary", type=PATH, metavar="FILE", help="The report as JSON; - writes it to the standard output.")
 @click.option("--picture", type=PATH, metavar="FILE", help="The plan drawn, as .png or .svg.")
+@click.option("--waypoints", type=PATH, metavar="FILE", help="Where each robot is when, in metres and seconds.")
+@click.option("--speed", type=Metres(), default=1.0, show_default=True, help="Of the robots, in metres a second.")
 @click.option("--write-scenario", type=PATH, metavar="FILE", help="All that was planned, as a scenario .toml.")
 def command(
     area: Path,
@@ -33,6 +35,8 @@ def command(
     out: Path | None,
     summary: Path | None,
     picture: Path | None,
+    waypoints: Path | None,
+    speed: float,
     write_scenario: Path | None,
     **options: Any,
 ) -> int:
@@ -43,7 +47,7 @@ def command(
 
     Exit status 1: some robots cannot arrive. The others are planned and all outputs are written.
     """
-    from trihex.formats import PLAN_SUFFIXES, write_plan
+    from trihex.formats import PLAN_SUFFIXES, WAYPOINT_SUFFIXES, write_plan, write_waypoints
     from trihex.formats import write_scenario as write_scenario_file
     from trihex.picture import SUFFIXES, picture_of_plan
 
@@ -51,6 +55,7 @@ def command(
         (out, PLAN_SUFFIXES, "a plan"),
         (summary, (), "a summary"),
         (picture, SUFFIXES, "a picture"),
+        (waypoints, WAYPOINT_SUFFIXES, "waypoints"),
         (write_scenario, (".toml",), "a scenario"),
     )
     begin = perf_counter()
@@ -59,6 +64,8 @@ def command(
     planner = planner or draft.planner or "fcost"
     planner_options = {**(draft.planner_options if planner == draft.planner else {}), **_parsed(planner_option)}
     _check_options(planner, planner_options)
+    if waypoints and scenario.area.frame is None:
+        raise wrong_use("--waypoints are in metres: add --cell-size")
     seconds = {"read": perf_counter() - begin}
     report = _reported(scenario, planner, planner_options, seconds)
 
@@ -66,6 +73,8 @@ def command(
         write_plan(report.plan, out)
     if picture:
         picture_of_plan(report.plan).save(picture)
+    if waypoints:
+        write_waypoints(report.plan, waypoints, speed=speed)
     if write_scenario:
         write_scenario_file(scenario, write_scenario, planner=planner, planner_options=planner_options)
     return _told(report, summary)
@@ -100,8 +109,6 @@ def _reported(scenario: Any, planner: str, planner_options: dict[str, Any], seco
 def _parsed(planner_option: tuple[str, ...]) -> dict[str, Any]:
     """Return planner options by name; numbers, true and false are read as such."""
     from json import loads
-
-    from trihex.cli.options import wrong_use
 
     values: dict[str, Any] = {}
     for text in planner_option:

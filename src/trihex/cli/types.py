@@ -81,6 +81,22 @@ class Share(click.ParamType):  # type: ignore[type-arg]
         return number
 
 
+class Metres(click.ParamType):  # type: ignore[type-arg]
+    """A length above 0."""
+
+    name = "metres"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        """Return the number."""
+        try:
+            number = float(value)
+        except ValueError:
+            number = -1.0
+        if not 0 < number < 1e9:
+            raise click.UsageError(f"{_name_of(param)} must be a number above 0, not {value!r}", ctx)
+        return number
+
+
 class Pair(click.ParamType):  # type: ignore[type-arg]
     """Two whole numbers, as in ``118,120``."""
 

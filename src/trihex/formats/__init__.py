@@ -43,6 +43,8 @@ def read_draft(
     path: str | os.PathLike[str],
     tessellation: Tessellation | str | None = None,
     *,
+    neighbourhood: str | None = None,
+    costs: str | None = None,
     progress: Progress | None = None,
     **options: Any,
 ) -> Draft:
@@ -55,6 +57,8 @@ def read_draft(
         plan ``.npz``.
     tessellation : Tessellation or str, optional
         What the cells are. Default: what the file says, or hexagonal.
+    neighbourhood, costs : str, optional
+        What else the cells are. Default: as `tessellation` or the file says.
     progress : callable, optional
         Called with (rows covered, all rows).
     **options
@@ -70,8 +74,9 @@ def read_draft(
     content = read_bytes(path)
     form = format_of(content, path)
     draft: Draft
-    if form in ("npz", "scenario") and any(value is not None for value in options.values()):
-        raise FormatError(f"{path}: says itself how its area lies in the world; {', '.join(options)} cannot change it")
+    given = {name: value for name, value in options.items() if value is not None}
+    if form in ("npz", "scenario") and given:
+        raise FormatError(f"{path}: says itself how its area lies in the world; {', '.join(given)} cannot change it")
     if form == "npz":
         draft = draft_of(read_plan_npz(path, content).scenario)
     elif form == "scenario":
@@ -79,15 +84,20 @@ def read_draft(
 
         draft = read_scenario_toml(path, _read_area_draft, content)
     else:
-        given = {name: value for name, value in options.items() if value is not None}
-        return _parse_area(content, form, path, AreaOptions(_made(tessellation or "hexagonal"), **given), progress)
-    if tessellation is not None:
-        draft = replace(draft, area=draft.area.with_tessellation(_made(tessellation)))
-    return draft
+        wanted = _wanted(Tessellation("hexagonal"), tessellation, neighbourhood, costs)
+        return _parse_area(content, form, path, AreaOptions(wanted, **given), progress)
+    own = draft.area.tessellation
+    wanted = _wanted(own, tessellation, neighbourhood, costs)
+    return draft if wanted == own else replace(draft, area=draft.area.with_tessellation(wanted))
 
 
-def _made(tessellation: Tessellation | str) -> Tessellation:
-    return Tessellation(tessellation) if isinstance(tessellation, str) else tessellation
+def _wanted(
+    own: Tessellation, tessellation: Tessellation | str | None, neighbourhood: str | None, costs: str | None
+) -> Tessellation:
+    """Return `own`, changed by what else is given."""
+    base = tessellation if isinstance(tessellation, Tessellation) else own
+    name = tessellation if isinstance(tessellation, str) else base.name
+    return Tessellation(name, neighbourhood or base.neighbourhood, costs or base.costs)
 
 
 def _read_area_draft(path: Path, tessellation: Tessellation) -> Draft:
