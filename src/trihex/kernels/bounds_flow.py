@@ -149,8 +149,9 @@ def arrive(
                 continue
             state[STAMP] += 1
             stamp = state[STAMP]
-            reach[:] = dead_reach
-            next_robot[:] = dead_robot
+            for gate in range(gates):
+                reach[gate] = dead_reach[gate]
+                next_robot[gate] = dead_robot[gate]
             node[0] = 2 * root + 1
             parent[0] = -1
             seen_out[root] = stamp
@@ -234,8 +235,9 @@ def arrive(
                         seen_out[node[i] >> 1] = DEAD
                     else:
                         seen_in[node[i] >> 1] = DEAD
-                dead_reach[:] = reach
-                dead_robot[:] = next_robot
+                for gate in range(gates):
+                    dead_reach[gate] = reach[gate]
+                    dead_robot[gate] = next_robot[gate]
                 continue
             slot = node[found] >> 1
             first_slot[robot[next_unserved[slot // width]]] = slot
