@@ -1,0 +1,30 @@
+"""Choices: what a page offers in its menus, read from the registries."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from trihex.generators import GENERATORS
+from trihex.planners import PLANNERS, options_of
+from trihex.scenario import CORNERS, CROSSINGS
+from trihex.tessellation import COSTS, NEIGHBOURHOODS, TESSELLATIONS, Tessellation
+from trihex.viewer.exports import EXPORTS
+from trihex.viewer.folder import SUFFIXES
+
+
+def choices() -> dict[str, Any]:
+    """Return the names of tessellations, rules, generators, planners with their options, and files to open and save."""
+    kinds = [Tessellation(name, neighbourhood) for name in TESSELLATIONS for neighbourhood in NEIGHBOURHOODS]
+    return {
+        "steps": {f"{kind.name} {kind.neighbourhood}": kind.step_of_direction.tolist() for kind in kinds},
+        "names": {f"{kind.name} {kind.neighbourhood}": kind.direction_names for kind in kinds},
+        "tessellations": TESSELLATIONS,
+        "neighbourhoods": NEIGHBOURHOODS,
+        "costs": COSTS,
+        "crossings": CROSSINGS,
+        "corners": CORNERS,
+        "generators": ["empty", *GENERATORS],
+        "planners": {name: options_of(name) for name in PLANNERS},
+        "exports": {what: {"suffixes": suffixes, "plan": plan} for what, (suffixes, plan) in EXPORTS.items()},
+        "suffixes": SUFFIXES,
+    }

@@ -1,0 +1,323 @@
+"""Desk: answers what a page asks for, whichever host the page runs in.
+
+A request is a bundle, and so is each frame of the answer. Frames have a ``kind``: "progress" (stage, done, total),
+"part" (some of a long result), and at last "result", "error" (message) or "cancelled".
+"""
+
+from __future__ import annotations
+
+import logging
+import tempfile
+from collections import OrderedDict, deque
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from pathlib import Path, PurePosixPath
+from time import monotonic, perf_counter
+from typing import Any, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trihex.audit import audit_plan
+from trihex.automaton import distance_generations
+from trihex.bounds import make_lower_bound
+from trihex.errors import FormatError, TooLargeError, TrihexError, check_choice
+from trihex.formats import read_draft, read_plan, read_starts
+from trihex.formats.draft import Draft
+from trihex.formats.files import read_bytes
+from trihex.formats.recognise import format_of
+from trihex.generators import GENERATORS
+from trihex.plan import Plan
+from trihex.planners import make_plan
+from trihex.report import Report, make_report
+from trihex.scenario import Scenario, random_robots
+from trihex.schemes import NScheme, make_d_scheme, make_n_scheme
+from trihex.viewer import requests as ask
+from trihex.viewer.bundle import Bundle, decode, encode
+from trihex.viewer.document import document_of, draft_of_document
+from trihex.viewer.exports import export
+from trihex.viewer.folder import Folder, references_of
+from trihex.viewer.show import show_plan
+
+# The automaton looks at all neighbours of all cells in every generation.
+MAX_AUTOMATON_CELLS = 2**20
+_MOST_PLANS = 8
+_MOST_ACTIONS = 2**29
+_TICK = 0.1  # seconds between two frames of progress
+
+Arrays = Mapping[str, NDArray[Any]]
+Send = Callable[[bytes], None]
+log = logging.getLogger(__name__)
+
+
+class CancelledError(Exception):
+    """The page does not wait for the answer any more."""
+
+
+class Desk:
+    """Answers requests; keeps the last plans, so that the page can save them, and the last fields.
+
+    Parameters
+    ----------
+    folder : Folder, optional
+        Where files are opened and saved; without one, files come from and go to the page only.
+    """
+
+    def __init__(self, folder: Folder | None = None) -> None:
+        self.folder = folder
+        self._reports: OrderedDict[str, Report] = OrderedDict()
+        self._n_schemes: deque[NScheme] = deque(maxlen=4)
+        self._plans_made = 0
+
+    def answer(self, request: bytes, send: Send, is_cancelled: Callable[[], bool] = lambda: False) -> None:
+        """Answer a request by calling `send` with frames; every kind of failure becomes a frame, too."""
+        try:
+            header, arrays = decode(request)
+            parsed = ask.parse_request(header)
+            call = _Call(arrays, send, is_cancelled)
+            work = getattr(self, f"_{parsed.op}")
+            result = work(parsed, call)
+            send(encode({"kind": "result", **result.header}, result.arrays))
+        except CancelledError:
+            send(encode({"kind": "cancelled"}))
+        except (TrihexError, OSError, MemoryError) as error:
+            send(encode({"kind": "error", "message": _message_of(error)}))
+        except Exception as error:
+            log.exception("a request of the page failed")
+            send(encode({"kind": "error", "message": f"this is a fault of trihex: {error!r:.200}"}))
+
+    def show(self, record: Draft | Plan) -> Bundle:
+        """Return what a page shows of a draft or a plan, as the result of "open" does."""
+        call = _Call({}, lambda _: None, lambda: False)
+        if isinstance(record, Plan):
+            return self._shown(record, {}, call)
+        return _drafted(record)
+
+    def _files(self, request: ask.ListFiles, call: _Call) -> Bundle:
+        names = self.folder.names() if self.folder else []
+        return Bundle({"files": names, "folder": str(self.folder.root) if self.folder else None}, {})
+
+    def _open(self, request: ask.OpenFile, call: _Call) -> Bundle:
+        if request.in_folder:
+            if self.folder is None:
+                raise FormatError("there is no folder to open files from; choose a file instead")
+            return self._opened(self.folder.find(request.name), request, call)
+        content = call.arrays.get("content")
+        if content is None or content.dtype != np.uint8:
+            raise FormatError(f"{request.name}: its content is missing")
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, _plain_name(request.name))
+            path.write_bytes(content.tobytes())
+            if references_of(path):
+                raise FormatError(
+                    f"{path.name} names another file, which a page cannot fetch: start the viewer in their folder"
+                )
+            try:
+                return self._opened(path, request, call)
+            except FormatError as error:
+                raise FormatError(str(error).replace(f"{folder}/", "")) from None
+
+    def _opened(self, path: Path, request: ask.OpenFile, call: _Call) -> Bundle:
+        form = format_of(read_bytes(path), path)
+        seconds: dict[str, float] = {}
+        begin = perf_counter()
+        if form in ("npz", "plan", "parquet"):
+            plan = read_plan(path, None if form == "npz" else call.scenario(request))
+            seconds["read"] = perf_counter() - begin
+            return self._shown(plan, seconds, call)
+        if form in ("starts", "scen"):
+            draft = call.draft(request)
+            return _drafted(replace(draft, robots=read_starts(path, draft.area), seed=None))
+        options = {"cell_size": request.cell_size, "robot_radius": request.robot_radius}
+        draft = read_draft(path, request.tessellation, progress=call.progress("reading"), **options)
+        if draft.random_count is not None:
+            avoid = () if draft.destinations is None else draft.destinations
+            robots = random_robots(draft.area, draft.random_count, draft.seed or 0, avoid=avoid)
+            draft = replace(draft, robots=robots, seed=draft.seed or 0)
+        return _drafted(draft)
+
+    def _generate(self, request: ask.Generate, call: _Call) -> Bundle:
+        check_choice("generator", request.generator, ["empty", *GENERATORS], FormatError)
+        if request.generator == "empty":
+            make, options = GENERATORS["random"], {"density": 0.0}
+        else:
+            make, options = GENERATORS[request.generator], {}
+        area = make(request.tessellation, request.height, request.width, seed=request.seed, **options)
+        if request.generator == "empty":
+            area = replace(area, name="")
+        return _drafted(Draft(area))
+
+    def _scatter(self, request: ask.Scatter, call: _Call) -> Bundle:
+        draft = call.draft(request)
+        robots = random_robots(draft.area, request.count, request.seed, avoid=draft.destinations)
+        return Bundle({"seed": request.seed}, {"robots": robots.astype(np.int32)})
+
+    def _fields(self, request: ask.Fields, call: _Call) -> Bundle:
+        n_scheme = self._n_scheme(call.scenario(request))
+        directions = make_d_scheme(n_scheme).directions
+        arrays: dict[str, NDArray[Any]] = {"distance": n_scheme.distance, "directions": directions}
+        return Bundle({"unreachable": int(n_scheme.unreachable_robots.size)}, arrays)
+
+    def _generations(self, request: ask.Generations, call: _Call) -> Bundle:
+        """Send the changes of each generation: how many cells change, which, and to what."""
+        scenario = call.scenario(request)
+        if scenario.area.cell_count > MAX_AUTOMATON_CELLS:
+            raise TooLargeError(
+                f"generations are shown one by one in areas of at most {MAX_AUTOMATON_CELLS} cells, not "
+                f"{scenario.area.cell_count}; the N-scheme itself is shown in any"
+            )
+        counts: list[int] = []
+        cells: list[NDArray[np.int32]] = []
+        values: list[NDArray[np.int32]] = []
+        last_sent, before = monotonic(), None
+        number = -1
+        for states in distance_generations(scenario):
+            number += 1
+            call.check()
+            if before is not None:
+                changed = np.flatnonzero(states != before)
+                counts.append(changed.size)
+                cells.append(changed.astype(np.int32))
+                values.append(states.reshape(-1)[changed].astype(np.int32))
+            before = states
+            if monotonic() - last_sent > _TICK and counts:
+                call.part({}, _joined(counts, cells, values))
+                counts, cells, values, last_sent = [], [], [], monotonic()
+        return Bundle({"generations": number}, _joined(counts, cells, values))
+
+    def _plan(self, request: ask.MakePlan, call: _Call) -> Bundle:
+        draft = call.draft(request)
+        own = draft.area.tessellation
+        if request.tessellation is not None and request.tessellation != own.name:
+            tessellation = replace(own, name=request.tessellation)
+            draft = replace(draft, area=draft.area.with_tessellation(tessellation))
+        scenario = draft.complete()
+        seconds: dict[str, float] = {}
+        begin = perf_counter()
+        n_scheme = self._n_scheme(scenario)
+        seconds["field"] = perf_counter() - begin
+        begin = perf_counter()
+        progress = call.progress("planning")
+        plan = make_plan(scenario, request.planner, n_scheme=n_scheme, progress=progress, **request.options)
+        seconds["plan"] = perf_counter() - begin
+        return self._shown(plan, seconds, call)
+
+    def _save(self, request: ask.Save, call: _Call) -> Bundle:
+        record: Draft | Report = call.draft(request) if request.plan is None else self._report(request.plan)
+        progress = call.progress("saving")
+        if request.in_folder:
+            if self.folder is None:
+                raise FormatError("there is no folder to save files in; download the file instead")
+            path = self.folder.resolve(request.name)
+            if path.exists() and not request.overwrite:
+                return Bundle({"exists": True, "name": request.name}, {})
+            export(record, request.what, path, request.planner, progress)
+            return Bundle({"saved": request.name}, {})
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, _plain_name(request.name))
+            export(record, request.what, path, request.planner, progress)
+            content = np.frombuffer(path.read_bytes(), dtype=np.uint8)
+            return Bundle({"name": path.name}, {"content": content})
+
+    def _shown(self, plan: Plan, seconds: dict[str, float], call: _Call) -> Bundle:
+        n_scheme = self._n_scheme(plan.scenario)
+        begin = perf_counter()
+        audit = audit_plan(plan, progress=call.progress("checking"))
+        seconds["audit"] = perf_counter() - begin
+        bound = None if plan.optimal else make_lower_bound(n_scheme, progress=call.progress("bounding"))
+        report = make_report(plan, n_scheme=n_scheme, audit=audit, lower_bound=bound, seconds=seconds)
+        return show_plan(report, n_scheme, self._keep(report))
+
+    def _n_scheme(self, scenario: Scenario) -> NScheme:
+        for kept in list(self._n_schemes):
+            if kept.scenario == scenario:
+                return kept
+        n_scheme = make_n_scheme(scenario)
+        self._n_schemes.append(n_scheme)
+        return n_scheme
+
+    def _keep(self, report: Report) -> str:
+        self._plans_made += 1
+        name = f"plan-{self._plans_made}"
+        self._reports[name] = report
+        while len(self._reports) > 1 and (
+            len(self._reports) > _MOST_PLANS
+            or sum(kept.plan.actions.size for kept in self._reports.values()) > _MOST_ACTIONS
+        ):
+            self._reports.popitem(last=False)
+        return name
+
+    def _report(self, name: str) -> Report:
+        if name not in self._reports:
+            raise FormatError("this plan is not kept any more: plan again")
+        return self._reports[name]
+
+
+class _Call:
+    """One request on its way: its arrays, and the line back to the page."""
+
+    def __init__(self, arrays: Arrays, send: Send, is_cancelled: Callable[[], bool]) -> None:
+        self.arrays = arrays
+        self._send, self._is_cancelled = send, is_cancelled
+        self._told = monotonic()
+
+    def check(self) -> None:
+        """Raise CancelledError if the page has gone."""
+        if self._is_cancelled():
+            raise CancelledError
+
+    def part(self, header: dict[str, Any], arrays: Arrays) -> None:
+        """Send some of the result."""
+        self._send(encode({"kind": "part", **header}, arrays))
+
+    def progress(self, stage: str) -> Callable[[int, int], None]:
+        """Return a function that tells the page how far `stage` is, and stops the work if the page has gone."""
+
+        def tell(done: int, total: int) -> None:
+            self.check()
+            if monotonic() - self._told >= _TICK:
+                self._told = monotonic()
+                self._send(encode({"kind": "progress", "stage": stage, "done": int(done), "total": int(total)}))
+
+        return tell
+
+    def draft(self, request: ask.Request) -> Draft:
+        """Return the document of the request."""
+        if request.document is None:
+            raise FormatError(f"{request.op}: the document is missing")
+        return draft_of_document(request.document, cast(dict[str, NDArray[Any]], self.arrays))
+
+    def scenario(self, request: ask.Request) -> Scenario:
+        """Return the document of the request as a scenario."""
+        return self.draft(request).complete()
+
+
+def _drafted(draft: Draft) -> Bundle:
+    header, arrays = document_of(draft)
+    return Bundle({"document": header, "planner": draft.planner}, arrays)
+
+
+def _joined(
+    counts: list[int], cells: list[NDArray[np.int32]], values: list[NDArray[np.int32]]
+) -> dict[str, NDArray[Any]]:
+    nothing = np.empty(0, dtype=np.int32)
+    return {
+        "counts": np.array(counts, dtype=np.int32),
+        "cells": np.concatenate([nothing, *cells]),
+        "values": np.concatenate([nothing, *values]),
+    }
+
+
+def _plain_name(name: str) -> str:
+    """Return the last part of a name that came from a page, or raise FormatError if it has none."""
+    plain = PurePosixPath(name.replace("\\", "/")).name
+    if not plain or "\0" in plain or len(plain.encode()) > 200:
+        raise FormatError(f"a file must have a name, not {name!r:.120}")
+    return plain
+
+
+def _message_of(error: Exception) -> str:
+    if isinstance(error, OSError) and not isinstance(error, TrihexError):
+        name = f"{Path(str(error.filename)).name}: " if error.filename else ""
+        return f"{name}{error.strerror or error}"
+    return str(error) or type(error).__name__

@@ -1,0 +1,146 @@
+"""Document: a scenario in the making as the page holds it, a JSON header with three arrays."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from trihex.area import Area
+from trihex.errors import FormatError, TooLargeError
+from trihex.formats.draft import Draft
+from trihex.frame import Frame
+from trihex.tessellation import Tessellation
+from trihex.viewer.bundle import Bundle
+
+# A page holds some 20 bytes a cell and 50 a robot.
+MAX_CELLS = 2**24
+MAX_ROBOTS = 2**21
+
+_Whole = Annotated[int, Field(ge=0, le=2**30)]
+_Side = Annotated[int, Field(ge=1, le=MAX_CELLS)]
+_Finite = Annotated[float, Field(allow_inf_nan=False)]
+
+
+class _Strict(BaseModel):
+    model_config = ConfigDict(extra="forbid", strict=True)
+
+
+class FrameHeader(_Strict):
+    """The frame of an area in metres."""
+
+    cell_size: _Finite
+    origin: list[_Finite]
+    yaw: _Finite
+    robot_radius: _Finite
+
+
+class DocumentHeader(_Strict):
+    """All of a document but its arrays; None stands for the default."""
+
+    name: Annotated[str, Field(max_length=400)] = ""
+    tessellation: str
+    neighbourhood: str = "full"
+    costs: str = "paper"
+    height: _Side
+    width: _Side
+    frame: FrameHeader | None = None
+    waiting_cost: _Whole | None = None
+    crossing: str = "forbid"
+    corners: str = "allow"
+    destination_capacity: Annotated[int, Field(ge=1, le=2**30)] | None = None
+    seed: _Whole | None = None
+
+
+def document_of(draft: Draft) -> Bundle:
+    """Return `draft` as a document; robots that are still to be drawn must have been drawn.
+
+    Arrays: ``barriers``, 8 cells a byte, the first in the highest bit; ``destinations`` and ``robots``, cell numbers.
+
+    Raises
+    ------
+    TooLargeError
+        If a page could not hold it.
+    """
+    area = draft.area
+    robots = np.empty(0) if draft.robots is None else draft.robots
+    if area.cell_count > MAX_CELLS or robots.size > MAX_ROBOTS:
+        raise TooLargeError(
+            f"the viewer shows at most {MAX_CELLS} cells and {MAX_ROBOTS} robots, "
+            f"not {area.cell_count} and {robots.size}"
+        )
+    frame = area.frame
+    header = {
+        "name": area.name[:400],
+        "tessellation": area.tessellation.name,
+        "neighbourhood": area.tessellation.neighbourhood,
+        "costs": area.tessellation.costs,
+        "height": area.height,
+        "width": area.width,
+        "frame": frame
+        and {
+            "cell_size": frame.cell_size,
+            "origin": list(frame.origin),
+            "yaw": frame.yaw,
+            "robot_radius": frame.robot_radius,
+        },
+        "waiting_cost": None if draft.waiting_cost is None else int(draft.waiting_cost),
+        "crossing": draft.crossing or "forbid",
+        "corners": draft.corners or "allow",
+        "destination_capacity": None if draft.destination_capacity is None else int(draft.destination_capacity),
+        "seed": None if draft.seed is None else int(draft.seed),
+    }
+    arrays: dict[str, NDArray[Any]] = {
+        "barriers": np.packbits(area.barriers),
+        "destinations": _cells(draft.destinations),
+        "robots": _cells(draft.robots),
+    }
+    return Bundle(header, arrays)
+
+
+def draft_of_document(header: Any, arrays: dict[str, NDArray[Any]]) -> Draft:
+    """Return the draft that a document describes.
+
+    Raises
+    ------
+    FormatError
+        If it is no document.
+    TrihexError
+        If its parts do not fit each other.
+    """
+    try:
+        parsed = DocumentHeader.model_validate(header)
+    except ValidationError as error:
+        detail = error.errors()[0]
+        where = ".".join(str(part) for part in detail["loc"])
+        raise FormatError(f"document: {where}: {detail['msg']}, not {detail['input']!r:.60}") from None
+    cells = parsed.height * parsed.width
+    if cells > MAX_CELLS:
+        raise TooLargeError(f"the viewer shows at most {MAX_CELLS} cells, not {cells}")
+    for name, dtype in (("barriers", "u1"), ("destinations", "i4"), ("robots", "i4")):
+        if name not in arrays or arrays[name].dtype.str[1:] != dtype:
+            raise FormatError(f"document: {name} must be an array of type {dtype}")
+    if arrays["barriers"].size != (cells + 7) // 8:
+        raise FormatError(f"document: barriers must hold {cells} bits, not {8 * arrays['barriers'].size}")
+    barriers = np.unpackbits(arrays["barriers"], count=cells).reshape(parsed.height, parsed.width).astype(bool)
+    tessellation = Tessellation(parsed.tessellation, parsed.neighbourhood, parsed.costs)
+    frame = None
+    if parsed.frame is not None:
+        x, y = parsed.frame.origin if len(parsed.frame.origin) == 2 else (0.0, 0.0)
+        frame = Frame(parsed.frame.cell_size, (x, y), parsed.frame.yaw, parsed.frame.robot_radius)
+    return Draft(
+        Area(tessellation, barriers, parsed.name, frame),
+        arrays["destinations"].astype(np.int64),
+        arrays["robots"].astype(np.int64),
+        seed=parsed.seed,
+        waiting_cost=parsed.waiting_cost,
+        crossing=parsed.crossing,
+        corners=parsed.corners,
+        destination_capacity=parsed.destination_capacity,
+    )
+
+
+def _cells(cells: NDArray[np.int64] | None) -> NDArray[np.int32]:
+    return np.empty(0, dtype=np.int32) if cells is None else cells.astype(np.int32)

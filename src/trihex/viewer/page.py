@@ -1,0 +1,108 @@
+"""Page: the HTML around the ES module, whether a server sends it or it lies on a disk."""
+
+from __future__ import annotations
+
+import gzip
+import json
+import os
+from base64 import b64encode
+from functools import cache
+from hashlib import sha256
+from html import escape
+from importlib.resources import files
+from string import Template
+from typing import Any
+
+from trihex import palette
+from trihex.formats.files import new_file, suffix_of
+from trihex.plan import Plan
+from trihex.report import Report, make_report
+from trihex.schemes import make_n_scheme
+from trihex.viewer.bundle import Bundle, encode
+from trihex.viewer.show import show_plan
+
+SUFFIXES = (".html",)
+_POLICY = (
+    "default-src 'none'; script-src {script}; style-src {style}; img-src data: blob:; connect-src {connect}; "
+    "base-uri 'none'; form-action 'none'"
+)
+
+
+@cache
+def source_of(name: str) -> str:
+    """Return the text of ``viewer.js``, ``viewer.css`` or ``viewer.html``."""
+    return (files("trihex.viewer") / "web" / name).read_text(encoding="utf-8")
+
+
+def settings_of(**more: Any) -> dict[str, Any]:
+    """Return what every page needs to know: colours, and what `more` says of its host."""
+    names = ("FREE", "BARRIER", "DESTINATION", "UNREACHED", "MOVING", "WAITING", "FINAL", "STRANDED", "INK")
+    ramp = palette.distance_ramp(256).tolist()
+    series = [list(colour) for colour in palette.SERIES]
+    colours = {name.lower(): list(getattr(palette, name)) for name in names}
+    return {"colours": {**colours, "distance": ramp, "series": series}, **more}
+
+
+def page_with(settings: dict[str, Any], first: Bundle | None, title: str, *, is_alone: bool) -> tuple[str, str]:
+    """Return the HTML of a page and the Content-Security-Policy that it obeys.
+
+    Parameters
+    ----------
+    settings : dict
+        See `settings_of`.
+    first : Bundle, optional
+        What the page shows at first.
+    title : str
+    is_alone : bool
+        Whether the page holds the module and its policy itself, and asks nobody for anything.
+    """
+    style, script = source_of("viewer.css"), source_of("viewer.js")
+    policy = _POLICY.format(
+        script=_hash_of(script) if is_alone else "'self'",
+        style=_hash_of(style),
+        connect="'none'" if is_alone else "'self'",
+    )
+    content = "" if first is None else b64encode(gzip.compress(encode(*first), 6, mtime=0)).decode()
+    head = f'<meta http-equiv="Content-Security-Policy" content="{policy}">' if is_alone else ""
+    module = (
+        f'<script type="module">{script}</script>' if is_alone else '<script type="module" src="viewer.js"></script>'
+    )
+    html = Template(source_of("viewer.html")).substitute(
+        title=escape(title),
+        head=head,
+        style=style,
+        settings=json.dumps(settings).replace("<", "\\u003c"),
+        content=content,
+        module=module,
+    )
+    return html, policy
+
+
+def write_page(plan: Plan, path: str | os.PathLike[str]) -> None:
+    """Write a plan as one HTML file that plays it in any browser, without a network.
+
+    Raises
+    ------
+    FormatError
+        If the suffix is not ``.html``.
+    TooLargeError
+        If a page could not hold the plan.
+    OSError
+        If the file cannot be written.
+    """
+    write_report_page(make_report(plan), path)
+
+
+def write_report_page(report: Report, path: str | os.PathLike[str]) -> None:
+    """Write a plan with its report as one HTML file; see `write_page`."""
+    suffix_of(path, SUFFIXES, "a page")
+    first = show_plan(report, make_n_scheme(report.plan.scenario))
+    name = report.plan.scenario.area.name
+    title = f"{report.plan.planner or 'plan'}{f' on {name}' if name else ''} - trihex"
+    html, _ = page_with(settings_of(host="alone"), first, title, is_alone=True)
+    with new_file(path) as part:
+        part.write_text(html, encoding="utf-8")
+
+
+def _hash_of(text: str) -> str:
+    return f"'sha256-{b64encode(sha256(text.encode()).digest()).decode()}'"

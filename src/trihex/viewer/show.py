@@ -1,0 +1,63 @@
+"""Show: a plan as a page plays it, one byte for each robot and step, with its report and its curves."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from trihex.errors import TooLargeError
+from trihex.formats.draft import draft_of
+from trihex.report import Report
+from trihex.schemes import NScheme
+from trihex.viewer.bundle import Bundle
+from trihex.viewer.document import document_of
+from trihex.viewer.playback import make_playback
+
+MAX_ACTIONS = 2**29
+_MOST_CONFLICTS = 20
+
+
+def show_plan(report: Report, n_scheme: NScheme, name: str = "") -> Bundle:
+    """Return the document of a plan and all that is needed to play it.
+
+    Raises
+    ------
+    TooLargeError
+        If a page could not hold it.
+    """
+    plan, scenario = report.plan, report.plan.scenario
+    if plan.actions.size > MAX_ACTIONS:
+        raise TooLargeError(f"the viewer plays at most {MAX_ACTIONS} robot steps, not {plan.actions.size}")
+    layout, tessellation = scenario.area.layout, scenario.area.tessellation
+    document, arrays = document_of(draft_of(scenario))
+    playback = make_playback(plan, n_scheme)
+    jump_at, jump_to = plan.jump_tables
+    header: dict[str, Any] = {
+        "document": document,
+        "plan": name,
+        "summary": report.as_dict(),
+        "conflicts": [{"step": c.step, "text": str(c)} for c in report.audit.conflicts[:_MOST_CONFLICTS]],
+        "steps": plan.steps,
+        "edge_cost": tessellation.edge_cost,
+        "layout": {
+            "origin": layout.origin,
+            "pitch": layout.pitch,
+            "offsets": layout.offset_of_direction.tolist(),
+            "costs": tessellation.cost_of_direction.tolist(),
+            "names": tessellation.direction_names,
+        },
+    }
+    curves = {"spent": playback.spent.astype(np.float64), "least_total": playback.least_total.astype(np.float64)}
+    counts = {name: getattr(playback, name).astype(np.int32) for name in ("moving", "waiting", "arrived")}
+    arrays = {
+        **arrays,
+        **{f"{name}_by_step": curve for name, curve in {**curves, **counts}.items()},
+        "actions": plan.actions,
+        "first_action": plan.first_action.astype(np.int32),
+        "has_arrived": plan.arrived.astype(np.uint8),
+        "jump_at": np.minimum(jump_at, 2**31 - 1).astype(np.int32),
+        "jump_to": jump_to,
+        "distance": n_scheme.distance,
+    }
+    return Bundle(header, arrays)
