@@ -1,5 +1,6 @@
 """Command line: what the commands print, write and answer; the wrong uses are in test_bad_input."""
 
+import csv
 import json
 import os
 import signal
@@ -14,6 +15,8 @@ from PIL import Image
 
 import trihex as th
 from trihex.cli import main
+from trihex.planners import PLANNERS
+from trihex.tessellation import TESSELLATIONS
 
 # Two rooms and a door; the robot on the right, two on the left.
 WORLD = "D..B...\n.......\nb.aB..c\n"
@@ -156,6 +159,48 @@ def test_field(folder):
     assert names == [f"generation-{i:04d}.png" for i in range(len(list(th.distance_generations(scenario))))]
     run("field", "world.txt", "--picture", "n.svg", "--directions-picture", "d.png")
     assert (folder / "n.svg").read_text().startswith("<svg")
+
+
+def test_compare(folder):
+    result = run("compare", "world.txt", "--planners", "greedy", "--out", "t.csv", "--picture", "bars.png")
+    lines = result.stdout.splitlines()
+    assert lines[0].split("  ")[:2] == ["tessellation", "planner"]
+    assert [line.split()[:2] for line in lines[2:]] == [[name, "greedy"] for name in TESSELLATIONS]
+    with open("t.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [row["tessellation"] for row in rows] == list(TESSELLATIONS)
+    for row, line in zip(rows, lines[2:], strict=True):
+        assert float(row["gap"]) == pytest.approx(int(row["total_time"]) / int(row["reference"]) - 1)
+        assert row["total_time"] == line.split()[2]
+        assert ("<=" in line) == (row["is_proven"] == "False")
+    assert (folder / "bars.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_compare_on_named_tessellations(folder):
+    for option in (["--tessellations", "square"], ["--tessellation", "square"]):
+        lines = run("compare", "world.txt", "--planners", "greedy", *option).stdout.splitlines()
+        assert [line.split()[0] for line in lines[2:]] == ["square"]
+
+
+def test_compare_says_who_cannot_arrive(folder):
+    (folder / "closed.txt").write_text("DB.\n.Ba\n.B.\n")
+    result = run("compare", "closed.txt", "--planners", "greedy", "--tessellations", "square,hexagonal", status=1)
+    message = "1 of 1 robots cannot reach a destination: 0 at (2, 1)"
+    assert result.stderr.splitlines() == [f"trihex: {name}: {message}" for name in ("square", "hexagonal")]
+
+
+def test_demo(folder):
+    result = run("demo", "--out", "shown")
+    rows = [line.split() for line in result.stdout.splitlines()[3:]]
+    assert [row[:2] for row in rows[: len(PLANNERS) * 3]] == [
+        [one, other] for one in TESSELLATIONS for other in PLANNERS
+    ]
+    names = {"table.csv", "n-scheme.png", "plan.gif", *(f"plan-{name}.png" for name in TESSELLATIONS)}
+    assert {path.name for path in (folder / "shown").iterdir()} == names
+    for name in names - {"table.csv"}:
+        with Image.open(folder / "shown" / name) as picture:
+            assert min(picture.size) > 200
+            assert len(picture.convert("RGB").getcolors(1 << 24)) > 5
 
 
 @pytest.mark.parametrize("kind", ["random", "rooms", "maze", "caves", "warehouse"])

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from trihex.audit import Audit
@@ -50,6 +50,43 @@ def stranded_line(scenario: Scenario, robots: Sequence[int]) -> str:
     named = [f"{robot} at {scenario.area.name_of_cell(int(scenario.robots[robot]))}" for robot in robots[:_MOST_ROBOTS]]
     more = f", and {len(robots) - len(named)} more" if len(robots) > len(named) else ""
     return f"{len(robots)} of {scenario.robot_count} robots cannot reach a destination: {', '.join(named)}{more}"
+
+
+def comparison_lines(rows: Sequence[Mapping[str, Any]]) -> list[str]:
+    """Return the rows of a comparison as a table, and below it what refused and what is unsafe."""
+    header = ("tessellation", "planner", "total time", "lower bound", "gap", "steps", "seconds", "bound by")
+    shown, notes = [], []
+    for row in rows:
+        own = f"{row['planner']} on {row['tessellation']}"
+        if row["refusal"]:
+            notes.append(f"{own} refused: {row['refusal']}")
+        if row["conflicts"]:
+            notes.append(f"{own} is unsafe: {row['conflicts']} conflicts")
+        values = [_shown(row[key]) for key in ("total_time", "reference")]
+        seconds = "-" if row["seconds"] is None else f"{row['seconds']:.2f}"
+        shown.append(
+            [
+                row["tessellation"],
+                row["planner"],
+                *values,
+                _gap(row),
+                _shown(row["steps"]),
+                seconds,
+                _shown(row["reference_name"]),
+            ]
+        )
+    return [*table_lines(header, shown, left=2), *notes]
+
+
+def _gap(row: Mapping[str, Any]) -> str:
+    """Return the gap, marked where it is measured against a bound that the optimum may lie above."""
+    if row["gap"] is None:
+        return "-"
+    return f"{'' if row['is_proven'] else '<= '}{100 * row['gap']:.2f} %"
+
+
+def _shown(value: Any) -> str:
+    return "-" if value is None else str(value)
 
 
 def table_lines(header: Sequence[str], rows: Iterable[Sequence[str]], left: int = 1) -> list[str]:

@@ -1,0 +1,102 @@
+"""`trihex compare`: planners side by side on the same robots, on one tessellation or several."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from trihex.cli.group import DONE, NO
+from trihex.cli.options import PATH, area_options, complete, read_described, robot_options, rule_options
+from trihex.cli.outputs import check_outputs
+from trihex.cli.progress import bar
+from trihex.cli.types import Names
+
+
+@click.command("compare")
+@click.argument("area", type=PATH)
+@area_options
+@rule_options
+@robot_options
+@click.option("--planners", type=Names("trihex.planners", "PLANNERS"), help="Which planners. [default: all]")
+@click.option(
+    "--tessellations",
+    type=Names("trihex.tessellation", "TESSELLATIONS"),
+    help="On which tessellations. [default: that of --tessellation, or all]",
+)
+@click.option("--out", type=PATH, metavar="FILE", help="The table as .csv, with all its columns.")
+@click.option(
+    "--picture", type=PATH, metavar="FILE", help="The gaps as bars, .png, .svg or .pdf (needs the extra plot)."
+)
+def command(
+    area: Path,
+    planners: tuple[str, ...] | None,
+    tessellations: tuple[str, ...] | None,
+    out: Path | None,
+    picture: Path | None,
+    **options: Any,
+) -> int:
+    """Compare planners: total time, gap to the optimum or to a lower bound, steps, seconds.
+
+    All plan the same robots. A gap marked <= is measured against a lower bound, because the optimum is not known; the
+    true gap is at most that.
+
+    Exit status 1: some robots cannot arrive, or a plan is unsafe.
+    """
+    from trihex.comparison import make_comparison
+    from trihex.formats.values_csv import write_values
+    from trihex.planners import PLANNERS
+
+    check_outputs((out, (".csv",), "a table"), (picture, (".png", ".svg", ".pdf"), "a chart"))
+    scenario = complete(read_described(area, options))
+    names = tessellations or ((options["tessellation"],) if options["tessellation"] else None)
+    with bar("planning", "plans") as progress:
+        comparison = make_comparison(_shaped(scenario, names), planners or tuple(PLANNERS), progress=progress)
+    rows = comparison.rows()
+    if out:
+        write_values(rows, out)
+    if picture:
+        _draw(rows, picture)
+    return _told(comparison, rows)
+
+
+def _shaped(scenario: Any, names: tuple[str, ...] | None) -> list[Any]:
+    """Return the scenario on each of the tessellations; by default on all that fit its area."""
+    from dataclasses import replace
+
+    from trihex.tessellation import TESSELLATIONS
+
+    area = scenario.area
+    if names is None:  # cells of an area in metres cannot take another shape
+        names = TESSELLATIONS if area.frame is None else (area.tessellation.name,)
+    shapes = [replace(area.tessellation, name=name) for name in names]
+    return [replace(scenario, area=area.with_tessellation(shape)) for shape in shapes]
+
+
+def _draw(rows: list[dict[str, Any]], path: Path) -> None:
+    from trihex.formats.files import new_file
+    from trihex.plotting import draw_comparison
+
+    drawn = [{**row, "optimal": row["is_proven"] and row["gap"] == 0} for row in rows if row["gap"] is not None]
+    ax = draw_comparison(drawn)
+    with new_file(path) as part:
+        ax.figure.savefig(part)
+
+
+def _told(comparison: Any, rows: list[dict[str, Any]]) -> int:
+    """Print the table, tell what is amiss, and return the exit status."""
+    from trihex.cli.texts import comparison_lines, stranded_line
+
+    click.echo("\n".join(comparison_lines(rows)))
+    status = DONE
+    for entry in comparison.entries:
+        if entry.report and not entry.report.audit.is_clean:
+            status = NO
+    reports = {id(entry.scenario): entry.report for entry in comparison.entries if entry.report}
+    for report in reports.values():
+        if report.unreachable_robots.size:
+            status = NO
+            line = stranded_line(report.plan.scenario, report.unreachable_robots.tolist())
+            click.echo(f"trihex: {report.plan.scenario.area.tessellation.name}: {line}", err=True)
+    return status
