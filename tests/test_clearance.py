@@ -2,6 +2,7 @@
 
 from itertools import product
 from math import ceil, hypot
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -105,3 +106,24 @@ def test_rules_that_let_robots_meet_are_refused_where_they_have_a_radius():
     assert th.Scenario(points, [(0, 0)], crossing="allow", destination_capacity=2).destination_capacity == 2
     hexagons = th.Area("hexagonal", [[0, 0]], frame=th.Frame(1.0, robot_radius=0.1))
     assert th.Scenario(hexagons, [(0, 0)], crossing="allow").crossing == "allow"  # no move passes a vertex
+
+
+def test_the_table_in_the_docs_is_right():
+    text = (Path(__file__).parents[1] / "docs" / "metric.md").read_text()
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in text.splitlines() if " = 0." in line]
+    names = {
+        "3": ("triangular", "edge"),
+        "12": ("triangular", "full"),
+        "4": ("square", "edge"),
+        "8": ("square", "full"),
+    }
+    seen = set()
+    for cells, _, formula, size, radius in rows[-5:]:
+        kind = ("hexagonal", "full") if cells == "hexagonal" else names[cells.split()[1]]
+        tessellation = Tessellation(*kind)
+        assert kind[0] in cells
+        assert float(formula.split("= ")[1]) == pytest.approx(least_distance(tessellation), abs=5e-5)
+        assert float(size) == ceil(least_cell_size(tessellation, 0.15) * 1e4 - 1e-6) / 1e4
+        assert float(radius) == int(least_distance(tessellation) * 0.25 * 1e4 + 1e-6) / 1e4
+        seen.add(kind)
+    assert len(seen) == 5
