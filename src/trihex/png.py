@@ -164,4 +164,4 @@ def write_png(image: NDArray[np.uint8], file: Path | IO[bytes]) -> None:
         index_of_key[rgb @ key] = np.arange(len(rgb))
         picture = Image.fromarray(index_of_key[image @ key])
         picture.putpalette(rgb.tobytes())
-    picture.save(file, format="PNG")
+    picture.save(file, format="PNG", compress_level=4)  # half the time of 6 for a tenth more bytes
