@@ -9,8 +9,11 @@ from scipy.sparse import coo_array
 from tests.oracle_rules import Rules
 
 
-def least_total_time(scenario, steps):
-    """Least sum of t_r over the robots that can arrive, if all do so within `steps` steps; None if they cannot."""
+def least_total_time(scenario, steps, *, count_steps=False):
+    """Least sum of t_r over the robots that can arrive, if all do so within `steps` steps; None if they cannot.
+
+    With `count_steps`, the least sum of their numbers of steps instead.
+    """
     rules = Rules(scenario)
     reachable = rules.reachable()
     destinations = set(rules.places(scenario.destinations))
@@ -23,7 +26,7 @@ def least_total_time(scenario, steps):
             moves = [(cell, scenario.waiting_cost), *rules.neighbours(cell)]
             for other, price in moves:
                 move = len(cost)
-                cost.append(price)
+                cost.append(1 if count_steps else price)
                 balance[cell, step - 1].append((move, -1))
                 if other in destinations:
                     at_most["enter", other, step].append(move)

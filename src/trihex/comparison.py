@@ -61,11 +61,11 @@ class Comparison(Record):
     def rows(self) -> list[dict[str, Any]]:
         """Return one flat row of plain values for each entry.
 
-        Its keys: `area`, `tessellation`, `neighbourhood`, `robots`, `arrived`, `planner`, `total_time`, `reference`
-        (the least total time that any plan of the scenario can have, as far as known), `reference_name`, `gap`
-        (total_time / reference - 1, None if it has no meaning), `is_proven` (whether the reference is the optimum: a planner has
-        proven it, or some plan attains a lower bound), `steps`, `longest_time`, `conflicts`, `seconds` (planning
-        alone) and `refusal` (why there is no plan; the values are None then).
+        Its keys: `area`, `tessellation`, `neighbourhood`, `robots`, `arrived`, `planner`, `total_time`; `reference`,
+        the least total time that any plan of the scenario can have, as far as known, and its `reference_name`; `gap`,
+        which is total_time / reference - 1, or None if that has no meaning; `is_proven`, whether the reference is the
+        optimum (a planner has proven it, or some plan attains a lower bound); `steps`, `longest_time`, `conflicts`;
+        `seconds`, of planning alone; `refusal`, why there is no plan, in which case the values are None.
         """
         return [self._row(entry) for entry in self.entries]
 
