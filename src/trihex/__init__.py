@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from trihex.formats import write_plan as write_plan
     from trihex.formats import write_scenario as write_scenario
     from trihex.formats import write_starts as write_starts
+    from trihex.formats import write_waypoints as write_waypoints
     from trihex.formats.report_json import write_report as write_report
     from trihex.frame import Frame as Frame
     from trihex.generators import GENERATORS as GENERATORS
@@ -138,6 +139,7 @@ _MODULE_OF_NAME = {
     "write_report": "formats.report_json",
     "write_scenario": "formats",
     "write_starts": "formats",
+    "write_waypoints": "formats",
 }
 __all__ = sorted(_MODULE_OF_NAME)
 __version__ = "0.1.0"

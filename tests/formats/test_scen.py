@@ -5,8 +5,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from trihex import Area, FormatError, ScenarioError
+from trihex import Area, AreaError, FormatError, ScenarioError
 from trihex.formats import read_area, read_starts
+from trihex.frame import Frame
 
 AREA = Area("hexagonal", np.zeros((3, 5)))
 GOOD = "version 1\n4\tx.map\t5\t3\t4\t2\t0\t0\t4.0\n"
@@ -62,3 +63,19 @@ def test_one_start_twice_is_told_by_the_scenario(tmp_path):
 
     with pytest.raises(ScenarioError, match="robots 0 and 1 both start at"):
         Scenario(AREA, [(0, 0)], read_starts(tmp_path / "a.scen", AREA))
+
+
+def test_starts_may_be_points_in_metres(tmp_path):
+    area = Area("square", np.zeros((3, 5)), frame=Frame(0.5, (10.0, 20.0)))
+    (tmp_path / "a.csv").write_text("x_metres,y_metres\r\n10.1,19.9\r\n12.2,18.6\r\n")
+    assert read_starts(tmp_path / "a.csv", area).tolist() == [0, 14]
+    (tmp_path / "a.csv").write_text("x_metres,y_metres\n")
+    assert read_starts(tmp_path / "a.csv", area).tolist() == []
+    (tmp_path / "a.csv").write_text("x_metres,y_metres\n10.1,19.9\n12.2\n")
+    with pytest.raises(FormatError, match=r"line 3: must be two numbers, not '12.2'"):
+        read_starts(tmp_path / "a.csv", area)
+    (tmp_path / "a.csv").write_text("x_metres,y_metres\n10.1,19.9\n12.2,nan\n")
+    with pytest.raises(FormatError, match=r"line 3: point \(12.2, nan\) metres lies outside the area"):
+        read_starts(tmp_path / "a.csv", area)
+    with pytest.raises(AreaError, match="give it a frame"):
+        read_starts(tmp_path / "a.csv", AREA)

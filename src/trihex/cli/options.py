@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from trihex.cli.progress import bar
-from trihex.cli.types import Metres, Name, Pair, Share, Whole
+from trihex.cli.types import Metres, Name, Place, Share, Whole
 
 if TYPE_CHECKING:
     from trihex.area import Area
@@ -75,7 +75,12 @@ def rule_options(command: Command) -> Command:
             help="When a robot may pass a vertex beside barriers. [default: allow]",
         ),
         click.option("--waiting-cost", type=Whole(0), help="Cost of waiting one step. [default: that of an edge]"),
-        click.option("--destination", type=Pair("X,Y"), multiple=True, help="A destination; may be repeated."),
+        click.option(
+            "--destination",
+            type=Place("X,Y"),
+            multiple=True,
+            help="A destination: a cell, or a point in metres as in 3.2,-1m; may be repeated.",
+        ),
     ):
         command = option(command)
     return command
@@ -85,7 +90,12 @@ def robot_options(command: Command) -> Command:
     """Add the robots."""
     for option in (
         click.option("--seed", type=Whole(0), help="What draws the robots. [default: 0]"),
-        click.option("--starts", type=PATH, metavar="FILE", help="CSV of their cells, with header x,y."),
+        click.option(
+            "--starts",
+            type=PATH,
+            metavar="FILE",
+            help="CSV of their cells, header x,y, or places, header x_metres,y_metres; or a MovingAI .scen.",
+        ),
         click.option("--robots", type=Whole(0), help="How many robots to draw at random."),
     ):
         command = option(command)
@@ -119,7 +129,8 @@ def _changed(draft: Draft, options: dict[str, Any]) -> Draft:
     rules = ("waiting_cost", "crossing", "corners", "destination_capacity")
     changes: dict[str, Any] = {name: options[name] for name in rules if options.get(name) is not None}
     if options.get("destination"):
-        changes["destinations"] = cells_from(draft.area, options["destination"], "--destination", ScenarioError)
+        cells = [_cell_of(draft.area, place) for place in options["destination"]]
+        changes["destinations"] = cells_from(draft.area, cells, "--destination", ScenarioError)
     count, starts, seed = options.get("robots"), options.get("starts"), options.get("seed")
     if count is not None and starts is not None:
         raise wrong_use("--robots and --starts exclude each other")
@@ -132,6 +143,19 @@ def _changed(draft: Draft, options: dict[str, Any]) -> Draft:
     elif seed is not None:
         changes["seed"] = seed
     return replace(draft, **changes)
+
+
+def _cell_of(area: Area, place: tuple[Any, Any]) -> tuple[int, int]:
+    """Return the cell (x, y) of a place that may be given in metres."""
+    from trihex.errors import AreaError
+
+    if isinstance(place[0], int):
+        return place
+    try:
+        x, y = area.cell_to_xy(area.metres_to_cell(*place))
+    except AreaError as error:
+        raise wrong_use(f"--destination: {error}") from None
+    return int(x), int(y)
 
 
 def complete(draft: Draft, *, needs_robots: bool = True) -> Scenario:

@@ -117,6 +117,23 @@ class Pair(click.ParamType):  # type: ignore[type-arg]
         return numbers[0], numbers[1]  # type: ignore[return-value]
 
 
+class Place(Pair):
+    """A cell, as in ``118,120``, or a point in metres, as in ``3.2,-1m``."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return two whole numbers, or two floats for a point in metres."""
+        text = str(value)
+        if not text.endswith("m"):
+            return super().convert(value, param, ctx)
+        try:
+            x, y = (float(part.removesuffix("m")) for part in text.split(","))
+        except ValueError:
+            raise click.UsageError(
+                f"{_name_of(param)} in metres must be X,Ym, such as 3.2,-1m, not {value!r}", ctx
+            ) from None
+        return x, y
+
+
 def _name_of(param: click.Parameter | None) -> str:
     if param is None:
         return "it"

@@ -10,9 +10,6 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from trihex.area import Area
 from trihex.coverage import Progress
 from trihex.errors import FormatError
@@ -26,7 +23,7 @@ from trihex.formats.options import AreaOptions
 from trihex.formats.plan_csv import read_plan_csv, write_plan_csv
 from trihex.formats.plan_npz import read_plan_npz, write_plan_npz
 from trihex.formats.recognise import format_of
-from trihex.formats.starts_csv import read_starts as read_starts_csv
+from trihex.formats.starts import read_starts as read_starts
 from trihex.formats.starts_csv import write_starts as write_starts
 from trihex.frame import Frame
 from trihex.plan import Plan
@@ -137,24 +134,6 @@ def _parse_area(
     if options.cell_size is None:
         return draft
     return replace(draft, area=replace(draft.area, frame=Frame(options.cell_size)))
-
-
-def read_starts(path: str | os.PathLike[str], area: Area) -> NDArray[np.int64]:
-    """Return the cell numbers of robots from CSV with the header `x,y`, or a MovingAI ``.scen`` without its goals.
-
-    Raises
-    ------
-    FormatError
-        If a line is not of the form, or a cell lies outside `area`.
-    OSError
-        If the file cannot be read.
-    """
-    content = read_bytes(path)
-    if format_of(content, path) == "scen":
-        from trihex.formats.scen import parse_scen
-
-        return parse_scen(content, path, area)
-    return read_starts_csv(path, area)
 
 
 def read_area(

@@ -47,7 +47,7 @@ def format_of(content: bytes, path: object) -> Format:
     suffix = Path(str(path)).suffix.lower()
     if first == plan_csv.HEADER:
         return "plan"
-    if first == starts_csv.HEADER:
+    if first in (starts_csv.HEADER, starts_csv.HEADER_IN_METRES):
         return "starts"
     if _MOVINGAI_LINE.search(b"\n".join(head.split(b"\n")[:4])) or suffix == ".map":
         return "movingai"

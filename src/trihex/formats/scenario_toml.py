@@ -18,7 +18,7 @@ from trihex.formats.draft import Draft
 from trihex.formats.files import check_text, new_file, read_bytes
 from trihex.formats.letters import parse_letters
 from trihex.formats.scenario_schema import AreaTable, ScenarioTable, check_document
-from trihex.formats.starts_csv import read_starts
+from trihex.formats.starts import read_starts
 from trihex.frame import Frame
 from trihex.scenario import Scenario
 from trihex.tessellation import Tessellation
