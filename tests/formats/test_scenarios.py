@@ -57,7 +57,7 @@ def test_a_scenario_of_other_files(tmp_path):
     assert scenario.destinations.tolist() == [0]
     assert scenario.robots.tolist() == [5, 1]
     assert (scenario.waiting_cost, scenario.corners) == (1000, "no-cut")
-    assert read_scenario(path, "triangular").area.tessellation == Tessellation("triangular")
+    assert read_scenario(path, "triangular").area.tessellation == Tessellation("triangular", costs="euclidean")
 
 
 def test_robots_of_the_file_come_before_those_of_the_letters(tmp_path):
@@ -181,3 +181,12 @@ def test_starts_may_be_none(tmp_path):
     path = tmp_path / "starts.csv"
     path.write_text("x,y\n")
     assert read_starts(path, Area("square", [[0]])).tolist() == []
+
+
+def test_robots_are_drawn_where_they_can_arrive(tmp_path):
+    path = tmp_path / "s.toml"
+    text = 'destinations = [[0, 0]]\n[area]\nrows = ["....B....."]\n[robots]\nrandom = 3\n'
+    path.write_text(text)
+    assert sorted(read_scenario(path).robots) == [1, 2, 3]
+    path.write_text(text.replace("random = 3", "random = 8"))
+    assert sorted(read_scenario(path).robots) == [1, 2, 3, 5, 6, 7, 8, 9]

@@ -60,13 +60,13 @@ def command(
     )
     begin = perf_counter()
     draft = read_described(area, options)
+    seconds = {"read": perf_counter() - begin}
     scenario = complete(draft)
     planner = planner or draft.planner or "fcost"
     planner_options = {**(draft.planner_options if planner == draft.planner else {}), **_parsed(planner_option)}
     _check_options(planner, planner_options)
     if waypoints and scenario.area.frame is None:
         raise wrong_use("--waypoints are in metres: add --cell-size")
-    seconds = {"read": perf_counter() - begin}
     report = _reported(scenario, planner, planner_options, seconds)
 
     if out:

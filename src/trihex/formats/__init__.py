@@ -53,7 +53,7 @@ def read_draft(
         MovingAI ``.map``, letters ``.txt``, ROS map ``.yaml``, image, ``.geojson``, ``.wkt``, scenario ``.toml`` or
         plan ``.npz``.
     tessellation : Tessellation or str, optional
-        What the cells are. Default: what the file says, or hexagonal.
+        What the cells are; a name tells the shape alone. Default: what the file says, or hexagonal.
     neighbourhood, costs : str, optional
         What else the cells are. Default: as `tessellation` or the file says.
     progress : callable, optional
