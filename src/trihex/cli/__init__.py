@@ -5,7 +5,7 @@ from __future__ import annotations
 import click
 
 from trihex import __version__
-from trihex.cli import animate, check, compare, convert, demo, field, generate, plan
+from trihex.cli import animate, check, compare, convert, demo, field, generate, plan, show
 from trihex.cli.group import Commands
 
 
@@ -26,5 +26,5 @@ def main(context: click.Context) -> None:
         click.echo(context.get_help())
 
 
-for module in (demo, plan, field, compare, check, animate, generate, convert):
+for module in (demo, plan, field, compare, check, animate, show, generate, convert):
     main.add_command(module.command)

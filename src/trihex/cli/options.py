@@ -125,6 +125,8 @@ def _changed(draft: Draft, options: dict[str, Any]) -> Draft:
     from trihex.area import cells_from
     from trihex.errors import ScenarioError
     from trihex.formats import read_starts
+    from trihex.formats.files import read_bytes
+    from trihex.formats.recognise import format_of
 
     rules = ("waiting_cost", "crossing", "corners", "destination_capacity")
     changes: dict[str, Any] = {name: options[name] for name in rules if options.get(name) is not None}
@@ -140,6 +142,8 @@ def _changed(draft: Draft, options: dict[str, Any]) -> Draft:
         raise wrong_use("--seed draws robots: add --robots N")
     elif starts is not None:
         changes |= {"robots": read_starts(starts, draft.area), "random_count": None, "seed": None}
+        if format_of(read_bytes(starts), starts) == "scen":
+            click.echo(f"trihex: goals of {starts} are not used: all robots go to the destinations", err=True)
     elif seed is not None:
         changes["seed"] = seed
     return replace(draft, **changes)
