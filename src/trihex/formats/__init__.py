@@ -97,9 +97,9 @@ def _wanted(
     return Tessellation(name, neighbourhood or base.neighbourhood, costs or base.costs)
 
 
-def _read_area_draft(path: Path, tessellation: Tessellation) -> Draft:
+def _read_area_draft(path: Path, options: AreaOptions) -> Draft:
     content = read_bytes(path)
-    return _parse_area(content, format_of(content, path), path, AreaOptions(tessellation), None)
+    return _parse_area(content, format_of(content, path), path, options, None)
 
 
 def _parse_area(

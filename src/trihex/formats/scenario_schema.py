@@ -11,6 +11,7 @@ from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
 from trihex.errors import ScenarioError, check_choice
+from trihex.formats.options import UNKNOWNS
 from trihex.scenario import CORNERS, CROSSINGS
 from trihex.tessellation import COSTS, NEIGHBOURHOODS, TESSELLATIONS
 
@@ -34,6 +35,7 @@ class _Table(BaseModel):
 
 
 _Number = Annotated[float, Field(allow_inf_nan=False, strict=False)]
+_Metres = list[Annotated[list[_Number], Field(min_length=2, max_length=2)]]
 
 
 class FrameTable(_Table):
@@ -56,6 +58,13 @@ class AreaTable(_Table):
     neighbourhood: Annotated[str, _choice("it", NEIGHBOURHOODS)] = "full"
     costs: Annotated[str, _choice("it", COSTS)] = "paper"
     frame: FrameTable | None = None
+    # How the file at `path` is read; see `formats.options.AreaOptions`.
+    cell_size: Annotated[_Number, Field(gt=0)] | None = None
+    robot_radius: Annotated[_Number, Field(ge=0)] | None = None
+    unknown: Annotated[str, _choice("it", UNKNOWNS)] | None = None
+    threshold: Annotated[_Number, Field(ge=0, le=1)] | None = None
+    invert: bool | None = None
+    resolution: Annotated[_Number, Field(gt=0)] | None = None
 
 
 class RulesTable(_Table):
@@ -70,8 +79,9 @@ class RulesTable(_Table):
 class RobotsTable(_Table):
     """[robots]: given, from a file, or drawn."""
 
-    one_of = ("cells", "file", "random")
+    one_of = ("cells", "metres", "file", "random")
     cells: _Cells | None = None
+    metres: _Metres | None = None
     file: str | None = None
     random: _Whole | None = None
     seed: _Whole | None = None
@@ -87,8 +97,10 @@ class PlannerTable(_Table):
 class ScenarioTable(_Table):
     """The whole file."""
 
+    one_of = ("destinations", "destinations_in_metres")
     area: AreaTable
     destinations: _Cells | None = None
+    destinations_in_metres: _Metres | None = None
     rules: RulesTable = RulesTable()
     robots: RobotsTable = RobotsTable()
     planner: PlannerTable = PlannerTable()

@@ -17,6 +17,7 @@ from trihex.errors import FormatError, ScenarioError, TrihexError
 from trihex.formats.draft import Draft
 from trihex.formats.files import check_text, new_file, read_bytes
 from trihex.formats.letters import parse_letters
+from trihex.formats.options import AreaOptions
 from trihex.formats.scenario_schema import AreaTable, ScenarioTable, check_document
 from trihex.formats.starts import read_starts
 from trihex.frame import Frame
@@ -29,7 +30,7 @@ MAX_BYTES = 2**26  # tomllib takes some 30 times as much while it reads
 
 def read_scenario_toml(
     path: str | os.PathLike[str],
-    read_area_draft: Callable[[Path, Tessellation], Draft],
+    read_area_draft: Callable[[Path, AreaOptions], Draft],
     content: bytes | None = None,
 ) -> Draft:
     """Return the draft that a file describes.
@@ -72,7 +73,7 @@ def read_scenario_toml(
 def _draft_of(
     table: ScenarioTable,
     path: Path,
-    read_area_draft: Callable[[Path, Tessellation], Draft],
+    read_area_draft: Callable[[Path, AreaOptions], Draft],
     mistakes: list[str],
 ) -> Draft | None:
     """Return what the table describes; add to `mistakes` what cannot be had."""
@@ -93,8 +94,16 @@ def _draft_of(
     def cells(places: list[list[int]] | None) -> NDArray[np.int64] | None:
         return None if places is None else cells_from(area, places, "cells", ScenarioError)
 
+    def metres(places: list[list[float]] | None) -> NDArray[np.int64] | None:
+        table = np.array(places, dtype=np.float64).reshape(-1, 2)
+        return None if places is None else area.metres_to_cell(table[:, 0], table[:, 1])
+
     destinations = attempt("destinations", lambda: cells(table.destinations))
+    if table.destinations_in_metres is not None:
+        destinations = attempt("destinations_in_metres", lambda: metres(table.destinations_in_metres))
     starts = attempt("robots.cells", lambda: cells(robots.cells))
+    if robots.metres is not None:
+        starts = attempt("robots.metres", lambda: metres(robots.metres))
     if (file := robots.file) is not None:
         starts = attempt("robots.file", lambda: read_starts(path.parent / file, area))
     has_robots = starts is not None or robots.random is not None
@@ -110,14 +119,20 @@ def _draft_of(
     )
 
 
-def _area_draft(table: AreaTable, path: Path, read_area_draft: Callable[[Path, Tessellation], Draft]) -> Draft:
+def _area_draft(table: AreaTable, path: Path, read_area_draft: Callable[[Path, AreaOptions], Draft]) -> Draft:
     tessellation = Tessellation(table.tessellation, table.neighbourhood, table.costs)
+    names = ("cell_size", "robot_radius", "unknown", "threshold", "invert", "resolution")
+    options = {name: value for name in names if (value := getattr(table, name)) is not None}
     if table.path is not None:
-        draft = read_area_draft(path.parent / table.path, tessellation)
+        draft = read_area_draft(path.parent / table.path, AreaOptions(tessellation, **options))
+    elif options:
+        raise ScenarioError(f"{min(options)} tells how the file at area.path is read; rows take a table area.frame")
     else:
         draft = parse_letters("\n".join(table.rows or []).encode(), "area.rows", tessellation)
     name = table.name or (draft.area.name if table.path is not None else path.stem)
     frame = draft.area.frame
+    if frame is not None and table.frame is not None:
+        raise ScenarioError("frame is known already from the file at area.path and its cell_size")
     if table.frame is not None:
         x, y = table.frame.origin
         frame = Frame(table.frame.cell_size, (x, y), table.frame.yaw, table.frame.robot_radius)
