@@ -9,6 +9,7 @@ import click
 
 from trihex.cli.options import PATH, area_options, read_judged, rule_options, wrong_use
 from trihex.cli.outputs import check_outputs
+from trihex.cli.progress import bar
 from trihex.cli.types import Metres
 
 
@@ -43,7 +44,8 @@ def command(source: Path, target: Path, area: Path | None, waypoints: bool, spee
         if waypoints or target.suffix.lower() not in PLAN_SUFFIXES:
             write_waypoints(plan, target, speed=speed)
         else:
-            write_plan(plan, target)
+            with bar("writing", "parts") as progress:
+                write_plan(plan, target, progress=progress)
         return
     if area is not None or waypoints:
         raise wrong_use(f"--{'area' if area else 'waypoints'} is for plans; {source} holds none")

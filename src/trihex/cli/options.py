@@ -183,7 +183,9 @@ def read_judged(path: Path, area: Path | None, options: dict[str, Any]) -> Plan:
     if format_of(read_bytes(path), path) != "npz":
         if area is None:
             raise wrong_use(f"{path} does not hold its area: add AREA")
-        return read_plan(path, complete(read_described(area, options), needs_robots=False))
+        scenario = complete(read_described(area, options), needs_robots=False)
+        with bar("reading", "rows") as progress:
+            return read_plan(path, scenario, progress=progress)
     plan = read_plan(path)
     own = plan.scenario.area.tessellation
     for name, was in (("tessellation", own.name), ("neighbourhood", own.neighbourhood)):

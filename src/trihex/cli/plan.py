@@ -70,7 +70,8 @@ def command(
     report = _reported(scenario, planner, planner_options, seconds)
 
     if out:
-        write_plan(report.plan, out)
+        with bar("writing", "parts") as progress:
+            write_plan(report.plan, out, progress=progress)
     if picture:
         picture_of_plan(report.plan).save(picture)
     if waypoints:

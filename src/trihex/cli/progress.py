@@ -12,7 +12,7 @@ def bar(what: str, unit: str) -> Iterator[Callable[[int, int], None]]:
     from tqdm import tqdm
 
     # The bar is gone when the work is done: what stays on the screen is the result.
-    with tqdm(desc=what, unit=f" {unit}", disable=None, delay=1, leave=False) as shown:
+    with tqdm(desc=what, unit=f" {unit}", unit_scale=True, disable=None, delay=1, leave=False) as shown:
 
         def move(done: int, total: int) -> None:
             shown.total = total

@@ -198,7 +198,9 @@ def write_scenario(scenario: Scenario, path: str | os.PathLike[str], **planner: 
         write_scenario_toml(scenario, path, **planner)
 
 
-def read_plan(path: str | os.PathLike[str], scenario: Scenario | None = None) -> Plan:
+def read_plan(
+    path: str | os.PathLike[str], scenario: Scenario | None = None, *, progress: Progress | None = None
+) -> Plan:
     """Return the plan of a ``.npz``, ``.csv`` or ``.parquet`` file.
 
     Parameters
@@ -207,6 +209,8 @@ def read_plan(path: str | os.PathLike[str], scenario: Scenario | None = None) ->
     scenario : Scenario, optional
         For CSV and Parquet, which keep neither area nor rules: what the plan was made for. Its robots are not looked
         at. A plan in ``.npz`` brings its own.
+    progress : callable, optional
+        Called with (rows read, all rows) of a CSV.
 
     Raises
     ------
@@ -227,16 +231,24 @@ def read_plan(path: str | os.PathLike[str], scenario: Scenario | None = None) ->
         from trihex.formats.plan_parquet import read_plan_parquet
 
         return read_plan_parquet(path, scenario, content)
-    return read_plan_csv(path, scenario, content)
+    return read_plan_csv(path, scenario, content, progress=progress)
 
 
-def write_plan(plan: Plan, path: str | os.PathLike[str]) -> None:
-    """Write a plan as ``.csv``, ``.npz`` or ``.parquet``; as ``.txt`` for mapf-visualizer, which knows only squares."""
+def write_plan(plan: Plan, path: str | os.PathLike[str], *, progress: Progress | None = None) -> None:
+    """Write a plan as ``.csv``, ``.npz`` or ``.parquet``; as ``.txt`` for mapf-visualizer, which knows only squares.
+
+    Parameters
+    ----------
+    plan : Plan
+    path : path
+    progress : callable, optional
+        Called with (done, total) while a CSV or npz is written.
+    """
     suffix = suffix_of(path, PLAN_SUFFIXES, "a plan")
     if suffix == ".csv":
-        write_plan_csv(plan, path)
+        write_plan_csv(plan, path, progress=progress)
     elif suffix == ".npz":
-        write_plan_npz(plan, path)
+        write_plan_npz(plan, path, progress=progress)
     elif suffix == ".parquet":
         from trihex.formats.plan_parquet import write_plan_parquet
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,7 +26,9 @@ def words_of_actions(tessellation: Tessellation) -> list[str]:
     return [*north, *south, "start", "wait", "jump"]
 
 
-def write_plan_csv(plan: Plan, path: str | os.PathLike[str]) -> None:
+def write_plan_csv(
+    plan: Plan, path: str | os.PathLike[str], *, progress: Callable[[int, int], None] | None = None
+) -> None:
     """Write header `robot,step,x,y,action,time` and a row for each robot and step.
 
     x, y is the cell after the step, time the running t_r. A robot that cannot arrive, or starts on a destination, has
@@ -55,9 +58,17 @@ def write_plan_csv(plan: Plan, path: str | os.PathLike[str]) -> None:
                 text,
             )
             file.write(text[:length].data)
+            if progress is not None:
+                progress(int(state[0]), plan.scenario.robot_count)
 
 
-def read_plan_csv(path: str | os.PathLike[str], scenario: Scenario, content: bytes | None = None) -> Plan:
+def read_plan_csv(
+    path: str | os.PathLike[str],
+    scenario: Scenario,
+    content: bytes | None = None,
+    *,
+    progress: Callable[[int, int], None] | None = None,
+) -> Plan:
     """Return the plan that a CSV file holds for the area, the destinations and the rules of `scenario`.
 
     The robots are those of the file; those of `scenario` are not looked at. Rows may come in any order. A row whose
@@ -69,6 +80,8 @@ def read_plan_csv(path: str | os.PathLike[str], scenario: Scenario, content: byt
     scenario : Scenario
     content : bytes, optional
         The content, where it has been read already.
+    progress : callable, optional
+        Called with (rows read, all rows).
 
     Raises
     ------
@@ -79,7 +92,8 @@ def read_plan_csv(path: str | os.PathLike[str], scenario: Scenario, content: byt
         If the file cannot be read.
     """
     text = check_text(read_bytes(path) if content is None else content, path)
-    table = parse_table(text, path, HEADER, {"action": words_of_actions(scenario.area.tessellation)})
+    words = words_of_actions(scenario.area.tessellation)
+    table = parse_table(text, path, HEADER, {"action": words}, progress)
     return plan_of_table(table, scenario, path)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import zipfile
 import zlib
+from collections.abc import Callable
 from io import BytesIO
 from math import prod
 from typing import Any
@@ -24,6 +25,7 @@ from trihex.tessellation import Tessellation
 VERSION = 1
 # What a file may unpack to: an area of 10^9 cells and as many robot-steps.
 MAX_UNPACKED = 2**32
+_PIECE = 2**22
 # Kind of number and number of axes of each entry.
 _ENTRIES = {
     "version": ("i", 0),
@@ -61,10 +63,19 @@ _DAMAGE = (
 _LARGEST_ITEM = {"i": 8, "b": 1, "u": 1, "f": 8, "U": 4096}
 
 
-def write_plan_npz(plan: Plan, path: str | os.PathLike[str]) -> None:
+def write_plan_npz(
+    plan: Plan, path: str | os.PathLike[str], *, progress: Callable[[int, int], None] | None = None
+) -> None:
     """Write a plan with all that is needed to judge it; `numpy.load` opens it without pickle.
 
     The same plan gives the same bytes.
+
+    Parameters
+    ----------
+    plan : Plan
+    path : path
+    progress : callable, optional
+        Called with (bytes packed, bytes to pack).
     """
     scenario, area, tessellation = plan.scenario, plan.scenario.area, plan.scenario.area.tessellation
     arrays: dict[str, Any] = {
@@ -88,8 +99,18 @@ def write_plan_npz(plan: Plan, path: str | os.PathLike[str]) -> None:
         "first_action": plan.first_action,
         "jumps": plan.jumps,
     }
-    with new_file(path) as part, open(part, "wb") as file:
-        np.savez_compressed(file, **arrays)
+    made = {name: np.ascontiguousarray(value).reshape(np.shape(value)) for name, value in arrays.items()}
+    done, total = 0, sum(array.nbytes for array in made.values())
+    # As `numpy.savez_compressed` does it, but piece by piece, so that a long one can be watched and interrupted.
+    with new_file(path) as part, zipfile.ZipFile(part, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, array in made.items():
+            with archive.open(f"{name}.npy", "w", force_zip64=True) as file:
+                npy.write_array_header_1_0(file, npy.header_data_from_array_1_0(array))
+                raw = array.reshape(-1).view(np.uint8) if array.size else np.empty(0, dtype=np.uint8)
+                for begin in range(0, raw.size, _PIECE):
+                    done += file.write(raw[begin : begin + _PIECE].data)
+                    if progress is not None:
+                        progress(done, total)
 
 
 def read_plan_npz(path: str | os.PathLike[str], content: bytes | None = None) -> Plan:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from difflib import get_close_matches
 
 import numpy as np
@@ -13,7 +14,13 @@ from trihex.errors import FormatError
 _BUDGET = 200_000
 
 
-def parse_table(content: bytes, path: object, header: str, words: dict[str, list[str]]) -> NDArray[np.int64]:
+def parse_table(
+    content: bytes,
+    path: object,
+    header: str,
+    words: dict[str, list[str]],
+    progress: Callable[[int, int], None] | None = None,
+) -> NDArray[np.int64]:
     """Return the columns below the header, shape (columns, rows); row i is line i + 2 of the file.
 
     Parameters
@@ -26,6 +33,8 @@ def parse_table(content: bytes, path: object, header: str, words: dict[str, list
         The first line, names parted by commas.
     words : dict of lists
         For each column that holds words instead of whole numbers, the words; they come out as indexes.
+    progress : callable, optional
+        Called with (rows read, all rows).
 
     Raises
     ------
@@ -50,6 +59,8 @@ def parse_table(content: bytes, path: object, header: str, words: dict[str, list
             _, row, column, begin = state.tolist()
             line, _, _ = body[begin:].partition(b"\n")
             _complain(f"{path}: line {row + 2}", wrong, names, column, line.decode(), known)
+        if progress is not None:
+            progress(int(state[1]), table.shape[1])
     return table
 
 
