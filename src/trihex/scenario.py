@@ -159,8 +159,12 @@ def _check_whole(parameter: str, value: object, least: int) -> None:
 def _check_free(area: Area, cells: NDArray[np.int64], one: str) -> None:
     stuck = np.flatnonzero(area.is_barrier(cells)) if cells.size else cells
     if stuck.size:
-        number, where = int(stuck[0]), area.name_of_cell(int(cells[stuck[0]]))
-        raise ScenarioError(f"{one} {number} must stand on a free cell; {where} is a barrier")
+        number, where, why = int(stuck[0]), area.name_of_cell(int(cells[stuck[0]])), ""
+        if area.frame is not None:
+            x, y = area.cell_to_metres(cells[stuck[0]])
+            where += f" at ({x:g}, {y:g}) metres"
+            why = f": something stands too near for robots of radius {area.frame.robot_radius:g}"
+        raise ScenarioError(f"{one} {number} must stand on a free cell; {where} is a barrier{why}")
 
 
 def _check_distinct(area: Area, robots: NDArray[np.int64]) -> None:
