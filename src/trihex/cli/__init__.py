@@ -5,13 +5,27 @@ from __future__ import annotations
 import click
 
 from trihex import __version__
-from trihex.cli import animate, check, compare, convert, demo, field, generate, plan, show
 from trihex.cli.group import Commands
+
+# The module of each command under trihex.cli, in the order of the help, and what it says there.
+COMMANDS = {
+    "demo": "All planners on the three tessellations: a table, pictures and an animation.",
+    "plan": "Plan collision-free paths for all robots.",
+    "field": "Compute the N-scheme and the D-scheme.",
+    "compare": "Compare planners: total time, gap, steps, seconds.",
+    "check": "Tell whether a plan is safe.",
+    "animate": "Draw the robots of a plan on their way.",
+    "show": "Tell what an area is like.",
+    "generate": "Make an area: random, rooms, maze, caves or warehouse.",
+    "convert": "Write a plan, an area or a scenario in another format.",
+}
 
 
 @click.group(
     "trihex",
     cls=Commands,
+    summary_of_command=COMMANDS,
+    package="trihex.cli",
     invoke_without_command=True,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110},
 )
@@ -24,7 +38,3 @@ def main(context: click.Context) -> None:
     """
     if context.invoked_subcommand is None:
         click.echo(context.get_help())
-
-
-for module in (demo, plan, field, compare, check, animate, show, generate, convert):
-    main.add_command(module.command)

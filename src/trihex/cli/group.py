@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import errno
 import os
+import re
 import signal
 import sys
 import threading
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from importlib import import_module
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -30,7 +32,37 @@ class _ReaderGoneError(Exception):
 
 
 class Commands(click.Group):
-    """A group of commands that tells of every error in one line on stderr."""
+    """A group of commands that tells of every error in one line on stderr.
+
+    Parameters
+    ----------
+    *args, **attributes
+        As for `click.Group`.
+    summary_of_command : dict
+        Names of the commands and what the help says of them.
+    package : str
+        Where the module of each command is, which defines `command`; it is imported when the command is called.
+    """
+
+    def __init__(self, *args: Any, summary_of_command: dict[str, str], package: str, **attributes: Any) -> None:
+        super().__init__(*args, **attributes)
+        self.summary_of_command, self.package = summary_of_command, package
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """Return the names of the commands."""
+        return list(self.summary_of_command)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """Return the command of that name."""
+        if cmd_name not in self.summary_of_command:
+            return None
+        command: click.Command = import_module(f"{self.package}.{cmd_name}").command
+        return command
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the names of the commands and what they do, for the help."""
+        with formatter.section("Commands"):
+            formatter.write_dl(list(self.summary_of_command.items()))
 
     def main(self, args: Sequence[str] | None = None, prog_name: str | None = None, *_: Any, **extra: Any) -> NoReturn:
         """Run the command that `args` name, and exit with its status."""
@@ -50,7 +82,7 @@ class Commands(click.Group):
         except click.UsageError as error:
             status = WRONG_USE
             path = error.ctx.command_path if error.ctx else "trihex"
-            _tell([f"{_line_of_usage_error(error)} (see {path} --help)"])
+            _tell([f"{_line_of_usage_error(error, self.summary_of_command)} (see {path} --help)"])
         except (click.ClickException, TrihexError, OSError, MemoryError) as error:
             status = WRONG_USE
             _tell(_lines_of(error))
@@ -85,13 +117,17 @@ def _lines_of(error: Exception) -> list[str]:
     return str(error).splitlines() or [type(error).__name__]
 
 
-def _line_of_usage_error(error: click.UsageError) -> str:
+def _line_of_usage_error(error: click.UsageError, commands: Iterable[str]) -> str:
     """Return click's message in one line, with the nearest name instead of all that come to its mind."""
-    name = getattr(error, "option_name", None) or getattr(error, "command_name", None)
-    if isinstance(error, click.NoSuchOption) or type(error).__name__ == "NoSuchCommand":
+    name, choices = "", commands
+    if isinstance(error, click.NoSuchOption):
+        name, choices = error.option_name, error.possibilities or ()
+    elif found := re.match("No such command '(.*?)'", error.format_message()):
+        name = found[1]
+    if name:
         from difflib import get_close_matches
 
-        near = get_close_matches(str(name), getattr(error, "possibilities", None) or (), n=1)
+        near = get_close_matches(name, list(choices), n=1)
         what = "option" if isinstance(error, click.NoSuchOption) else "command"
         return f"there is no {what} {name!r}{f'; did you mean {near[0]!r}?' if near else ''}"
     return " ".join(error.format_message().split()).rstrip(".")
