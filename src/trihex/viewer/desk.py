@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from trihex.audit import audit_plan
 from trihex.automaton import distance_generations
-from trihex.bounds import make_lower_bound
+from trihex.bounds import LowerBound, distance_bound, make_lower_bound, slot_bound
 from trihex.errors import FormatError, TooLargeError, TrihexError, check_choice
 from trihex.formats import read_draft, read_plan, read_starts
 from trihex.formats.draft import Draft
@@ -91,7 +91,7 @@ class Desk:
         call = _Call({}, lambda _: None, lambda: False)
         if isinstance(record, Plan):
             return self._shown(record, {}, call)
-        return _drafted(record)
+        return _drafted(_drawn(record))
 
     def _files(self, request: ask.ListFiles, call: _Call) -> Bundle:
         names = self.folder.names() if self.folder else []
@@ -128,13 +128,9 @@ class Desk:
         if form in ("starts", "scen"):
             draft = call.draft(request)
             return _drafted(replace(draft, robots=read_starts(path, draft.area), seed=None))
-        options = {"cell_size": request.cell_size, "robot_radius": request.robot_radius}
+        options: dict[str, Any] = {"cell_size": request.cell_size, "robot_radius": request.robot_radius}
         draft = read_draft(path, request.tessellation, progress=call.progress("reading"), **options)
-        if draft.random_count is not None:
-            avoid = () if draft.destinations is None else draft.destinations
-            robots = random_robots(draft.area, draft.random_count, draft.seed or 0, avoid=avoid)
-            draft = replace(draft, robots=robots, seed=draft.seed or 0)
-        return _drafted(draft)
+        return _drafted(_drawn(draft))
 
     def _generate(self, request: ask.Generate, call: _Call) -> Bundle:
         check_choice("generator", request.generator, ["empty", *GENERATORS], FormatError)
@@ -148,9 +144,8 @@ class Desk:
         return _drafted(Draft(area))
 
     def _scatter(self, request: ask.Scatter, call: _Call) -> Bundle:
-        draft = call.draft(request)
-        robots = random_robots(draft.area, request.count, request.seed, avoid=draft.destinations)
-        return Bundle({"seed": request.seed}, {"robots": robots.astype(np.int32)})
+        draft = _drawn(replace(call.draft(request), robots=None, random_count=request.count, seed=request.seed))
+        return _drafted(draft)
 
     def _fields(self, request: ask.Fields, call: _Call) -> Bundle:
         n_scheme = self._n_scheme(call.scenario(request))
@@ -219,14 +214,32 @@ class Desk:
             content = np.frombuffer(path.read_bytes(), dtype=np.uint8)
             return Bundle({"name": path.name}, {"content": content})
 
+    def _bound(self, request: ask.Bound, call: _Call) -> Bundle:
+        report = self._report(request.plan)
+        scenario = report.plan.scenario
+        if not report.optimal:
+            n_scheme = self._n_scheme(scenario)
+            bound = self._optimum(scenario) or make_lower_bound(n_scheme, progress=call.progress("bounding"))
+            report = replace(report, bound=bound)
+            self._reports[request.plan] = report
+        return Bundle({"summary": report.as_dict()}, {})
+
     def _shown(self, plan: Plan, seconds: dict[str, float], call: _Call) -> Bundle:
+        """Return the plan with the bounds that are had at once; the page asks for a better one while it plays."""
         n_scheme = self._n_scheme(plan.scenario)
         begin = perf_counter()
         audit = audit_plan(plan, progress=call.progress("checking"))
         seconds["audit"] = perf_counter() - begin
-        bound = None if plan.optimal else make_lower_bound(n_scheme, progress=call.progress("bounding"))
+        bound = max(distance_bound(n_scheme), slot_bound(n_scheme), key=lambda bound: bound.value)
         report = make_report(plan, n_scheme=n_scheme, audit=audit, lower_bound=bound, seconds=seconds)
         return show_plan(report, n_scheme, self._keep(report))
+
+    def _optimum(self, scenario: Scenario) -> LowerBound | None:
+        """Return the least total time of a scenario, if a plan that is kept has proven it."""
+        for report in self._reports.values():
+            if report.optimal and report.plan.scenario == scenario:
+                return LowerBound("optimum", report.total_time)
+        return None
 
     def _n_scheme(self, scenario: Scenario) -> NScheme:
         for kept in list(self._n_schemes):
@@ -290,6 +303,17 @@ class _Call:
     def scenario(self, request: ask.Request) -> Scenario:
         """Return the document of the request as a scenario."""
         return self.draft(request).complete()
+
+
+def _drawn(draft: Draft) -> Draft:
+    """Return the draft with its robots drawn if they are still to be, where they can arrive if it has a destination."""
+    if draft.random_count is None:
+        return draft
+    if draft.destinations is not None and draft.destinations.size:
+        robots = draft.complete().robots
+    else:
+        robots = random_robots(draft.area, draft.random_count, draft.seed or 0)
+    return replace(draft, robots=robots, random_count=None, seed=draft.seed or 0)
 
 
 def _drafted(draft: Draft) -> Bundle:

@@ -68,6 +68,12 @@ class MakePlan(Request):
     tessellation: _Text | None = None
 
 
+class Bound(Request):
+    """A better lower bound for a plan that was made; may take longer than the plan."""
+
+    plan: _Text
+
+
 class Save(Request):
     """A file, into the folder (`in_folder`) or as an answer."""
 
@@ -87,6 +93,7 @@ REQUESTS: dict[str, type[Request]] = {
     "fields": Fields,
     "generations": Generations,
     "plan": MakePlan,
+    "bound": Bound,
     "save": Save,
 }
 

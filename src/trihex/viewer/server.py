@@ -253,5 +253,5 @@ def make_viewing(desk: Desk, first: Bundle | None = None, *, port: int = 0) -> V
     listener.bind((LOOPBACK, port))
     listener.listen()
     port, token = listener.getsockname()[1], token_urlsafe(18)
-    app = make_app(desk, first, settings_of(host="server", **choices()), token, port)
+    app = make_app(desk, first, settings_of(host="server", folder=desk.folder is not None, **choices()), token, port)
     return Viewing(f"http://{LOOPBACK}:{port}/{token}/", app, listener)

@@ -201,13 +201,15 @@ export class Playback {
         this.#advance(this.site, this.step, this.next);
       }
     }
+    const isNext = this.step + 1 === step;
     while (this.step < step) {
       [this.site, this.next] = [this.next, this.site];
       this.step++;
       if (this.step % this.every === 0 && this.kept.length === this.step / this.every) this.kept.push(this.site.slice());
-      this.#advance(this.site, this.step, this.next);
+      if (this.step < step) this.#advance(this.site, this.step, this.next);
     }
-    this.#locate(this.site, this.x0, this.y0);
+    if (isNext) [this.x0, this.y0, this.x1, this.y1] = [this.x1, this.y1, this.x0, this.y0];
+    else this.#locate(this.site, this.x0, this.y0);
     this.#lookAhead();
   }
 
@@ -326,12 +328,16 @@ export class Pane {
     this.follow = -1;
     this.track = null; // cells of the followed robot
     this.cursor = -1;
-    this.isStale = { map: true, base: true };
+    this.isStale = { map: true, base: true, colours: true };
+    this.isRough = false; // while a hand moves the picture
     this.sprites = new Map();
   }
 
   resize(width, height) {
-    if (this.canvas.width === width && this.canvas.height === height) return;
+    const { canvas, view } = this;
+    if (canvas.width === width && canvas.height === height) return;
+    view.left += (width - canvas.width) / 2;
+    view.top += (height - canvas.height) / 2;
     for (const canvas of [this.canvas, this.paper]) Object.assign(canvas, { width, height });
     this.base = new ImageData(width, height);
     this.frame = new ImageData(width, height);
@@ -344,7 +350,7 @@ export class Pane {
 
   changed(what) {
     this.isStale.base = true;
-    if (what === "map") this.isStale.map = true;
+    this.isStale[what === "map" ? "map" : "colours"] = true;
   }
 
   show(doc, robots) {
@@ -376,6 +382,7 @@ export class Pane {
     view.top = py - (py - view.top) * (scale / view.scale);
     view.scale = scale;
     this.isFitted = false;
+    this.isRough = true;
     this.changed("map");
   }
 
@@ -386,6 +393,7 @@ export class Pane {
     view.left = keep(view.left, dx, across, canvas.width);
     view.top = keep(view.top, dy, down, canvas.height);
     this.isFitted = false;
+    this.isRough = true;
     this.changed("map");
   }
 
@@ -420,6 +428,8 @@ export class Pane {
 
   #colourOfCells(palette) {
     const { doc, values } = this;
+    if (!this.isStale.colours) return this.colourOfCell;
+    this.isStale.colours = false;
     const colour = new Uint32Array(doc.barriers.length).fill(packed(palette.free));
     if (values) {
       const ramp = Uint32Array.from(palette.distance, packed), factor = 255 / Math.max(this.options.most, 1);
@@ -432,7 +442,7 @@ export class Pane {
     const barrier = packed(palette.barrier), destination = packed(palette.destination);
     for (let cell = 0; cell < colour.length; cell++) if (doc.barriers[cell]) colour[cell] = barrier;
     for (const cell of doc.destinations) colour[cell] = destination;
-    return colour;
+    return (this.colourOfCell = colour);
   }
 
   #drawBase() {
@@ -440,13 +450,13 @@ export class Pane {
     const palette = this.palette(), colour = this.#colourOfCells(palette), page = packed(palette.page);
     const { base32, cellOfPixel, view, paperContext } = this;
     for (let p = 0; p < base32.length; p++) base32[p] = cellOfPixel[p] < 0 ? page : colour[cellOfPixel[p]];
-    if (view.scale < 1) this.#darkenBarriers(palette);
+    if (view.scale < 1 && !this.isRough) this.#darkenBarriers(palette);
     paperContext.putImageData(this.base, 0, 0);
     const cells = this.#visibleCells();
-    if (cells && view.scale >= OUTLINES_FROM) this.#drawOutlines(cells, palette);
+    if (cells && view.scale >= OUTLINES_FROM) this.#drawOutlines(cells);
     if (cells && this.values && view.scale >= ARROWS_FROM) this.#drawField(cells, palette);
     this.#drawDestinations(palette);
-    if (this.track) this.#drawTrack(palette);
+    if (this.track) this.#drawTrack();
     this.base.data.set(paperContext.getImageData(0, 0, this.canvas.width, this.canvas.height).data);
     this.isStale.base = false;
   }
@@ -456,13 +466,13 @@ export class Pane {
     const { doc, view, canvas, base32 } = this;
     const { width, height } = canvas;
     const all = new Uint8Array(base32.length), closed = new Uint8Array(base32.length);
+    const { centre } = shapeOf(doc), { barriers } = doc, { scale, left, top } = view;
     for (let cell = 0, y = 0; y < doc.height; y++) {
       for (let x = 0; x < doc.width; x++, cell++) {
-        const [cx, cy] = shapeOf(doc).centre(x, y);
-        const i = (cx * view.scale + view.left) | 0, j = (cy * view.scale + view.top) | 0;
+        const [cx, cy] = centre(x, y), i = (cx * scale + left) | 0, j = (cy * scale + top) | 0;
         if (i < 0 || j < 0 || i >= width || j >= height) continue;
         all[j * width + i]++;
-        closed[j * width + i] += doc.barriers[cell];
+        closed[j * width + i] += barriers[cell];
       }
     }
     const free = packed(palette.free), barrier = packed(palette.barrier);
@@ -486,7 +496,7 @@ export class Pane {
     return cells;
   }
 
-  #drawOutlines(cells, palette) {
+  #drawOutlines(cells) {
     const { doc, view, paperContext: c } = this;
     c.beginPath();
     for (const [x, y] of cells) {
@@ -526,7 +536,7 @@ export class Pane {
     const { doc, view, directions, paperContext: c, options } = this;
     const orientation = shapeOf(doc).orientation(x, y), steps = options.steps[orientation];
     const up = options.numbers && view.scale >= NUMBERS_FROM ? -view.scale * 0.16 : 0;
-    const length = view.scale * (up ? 0.2 : 0.32), head = Math.max(3, length * 0.45);
+    const length = view.scale * (up ? 0.23 : 0.34), head = Math.max(2.5, length * 0.34);
     c.lineWidth = Math.max(1, view.scale / 22);
     for (let k = 0; k < steps.length; k++) {
       if (!((directions[cell] >> k) & 1)) continue;
@@ -563,7 +573,7 @@ export class Pane {
     }
   }
 
-  #drawTrack(palette) {
+  #drawTrack() {
     const { view, paperContext: c, track } = this;
     c.lineJoin = c.lineCap = "round";
     for (const [width, colour] of [[5, this.options.dark ? "#000" : "#fff"], [2.5, this.options.dark ? "#ffb000" : "#b3005e"]]) {
@@ -596,16 +606,18 @@ export class Pane {
     const radius = Math.max(1, view.scale * (this.doc.header.tessellation === "triangular" ? 0.3 : 0.36));
     if (radius < 2) {
       const side = radius < 1.3 ? 2 : 3, flat = colours.map((colour) => (colour ? packed(colour) : 0));
-      const { scale, left, top } = view, back = side / 2, right = width - side, bottom = height - side;
-      for (let r = 0; r < robots.count; r++) {
+      const { scale } = view, shiftX = view.left - side / 2 + 0.5, shiftY = view.top - side / 2 + 0.5;
+      const right = width - side, bottom = height - side, { count } = robots;
+      for (let r = 0; r < count; r++) {
         const s = state[r];
         if (s === HIDDEN) continue;
-        const i = Math.round((x0[r] + (x1[r] - x0[r]) * fraction) * scale + left - back);
-        const j = Math.round((y0[r] + (y1[r] - y0[r]) * fraction) * scale + top - back);
-        if (i < 0 || j < 0 || i > right || j > bottom) continue;
-        const colour = flat[s];
-        let p = j * width + i;
-        for (let b = 0; b < side; b++, p += width) for (let a = 0; a < side; a++) frame32[p + a] = colour;
+        const px = (x0[r] + (x1[r] - x0[r]) * fraction) * scale + shiftX, py = (y0[r] + (y1[r] - y0[r]) * fraction) * scale + shiftY;
+        if (px < 0 || py < 0 || px >= right || py >= bottom) continue;
+        const colour = flat[s], p = (py | 0) * width + (px | 0);
+        frame32[p] = frame32[p + 1] = frame32[p + width] = frame32[p + width + 1] = colour;
+        if (side < 3) continue;
+        frame32[p + 2] = frame32[p + width + 2] = colour;
+        frame32[p + 2 * width] = frame32[p + 2 * width + 1] = frame32[p + 2 * width + 2] = colour;
       }
       return;
     }
@@ -962,7 +974,7 @@ export class App {
       this.progressRow = h("div", { class: "row working", hidden: true }, this.progress, this.progressText, button("Cancel", () => this.cancel(), { title: "Escape" }));
       this.showOptions();
       parts.push(section("Plan", true, h("div", { class: "row" }, this.planner, this.planButton), this.plannerOptions,
-        h("div", { class: "row" }, this.otherPlanner, this.otherCells, this.compareButton, this.endCompareButton), this.progressRow));
+        h("div", { class: "grid" }, this.otherPlanner, this.otherCells), h("div", { class: "row" }, this.compareButton, this.endCompareButton), this.progressRow));
     }
     this.results = h("div", { class: "results" });
     this.sofar = h("p", { class: "note sofar" });
@@ -1030,6 +1042,7 @@ export class App {
     if (header.planner && this.planner && this.settings.planners[header.planner]) this.planner.lastChild.value = header.planner;
     if (isEdit) this.edit(doc, [run, null]);
     else this.set(doc, [run, null]);
+    if (run) this.bound();
   }
 
   edit(doc, runs = [null, null]) {
@@ -1104,6 +1117,23 @@ export class App {
     }
   }
 
+  // Better lower bounds take longer than plans: they are asked for while the plan is on the page already. Where the
+  // optimum has been found meanwhile, it is the bound.
+  async bound() {
+    if (!this.host) return;
+    for (const run of this.runs) {
+      if (!run || run.summary.optimal || run.isBounding) continue;
+      run.isBounding = true;
+      try {
+        const { header } = await this.host.ask({ op: "bound", plan: run.plan });
+        Object.assign(run, { summary: header.summary });
+        if (this.runs.includes(run)) this.refresh();
+      } catch { /* the weaker bound holds as well */ } finally {
+        run.isBounding = false;
+      }
+    }
+  }
+
   working(words, done, total) {
     this.progressRow.hidden = false;
     this.progressText.textContent = total > 0 ? `${words} ${number(done)} of ${number(total)}` : words;
@@ -1142,8 +1172,13 @@ export class App {
   }
 
   async plan(which) {
-    const doc = this.doc, missing = this.missing();
+    const missing = this.missing();
     if (missing) return this.say(missing, true);
+    if (which && !this.runs[0]) {
+      await this.plan(0);
+      if (!this.runs[0]) return;
+    }
+    const { doc } = this;
     const planner = (which ? this.otherPlanner : this.planner).lastChild.value;
     const tessellation = which && this.otherCells.lastChild.value;
     const request = { op: "plan", planner, options: this.chosenOptions(planner), ...this.request };
@@ -1163,10 +1198,11 @@ export class App {
     // From here on a click should follow a robot rather than paint a wall, which would undo the plan.
     this.choose("move");
     this.results.closest("details").scrollIntoView({ block: "nearest" });
+    this.bound();
     const { summary } = run;
     const stranded = summary.unreachable ? ` ${plural(summary.unreachable, "robot")} cannot arrive.` : "";
     const conflicts = summary.conflicts ? ` ${plural(summary.conflicts, "conflict")}!` : "";
-    this.say(`${title(summary.planner || "plan")}: total time ${number(summary.total_time)}, ${gapWords(summary)}.${stranded}${conflicts} Press Play.`, conflicts !== "");
+    if (run === this.runs[which]) this.say(`${title(summary.planner || "plan")}: total time ${number(summary.total_time)}${summary.optimal ? ", proven optimal" : ""}.${stranded}${conflicts} Press Play.`, conflicts !== "");
   }
 
   endCompare() { this.set(this.doc, [this.runs[0], null]); }
@@ -1374,8 +1410,8 @@ export class App {
       return;
     }
     const rows = [
-      ["Total time", (s) => number(s.total_time)], ["Lower bound", (s) => `${number(s.lower_bound)}${s.optimal ? "" : ` (${s.lower_bound_name})`}`],
-      ["Gap to the optimum", (s) => (s.optimal ? "0, proven" : s.gap === null ? "–" : s.gap === 0 ? "0, proven" : `at most ${percent(s.gap)}`)], ["Steps", (s) => number(s.steps)],
+      ["Total time", (s) => number(s.total_time)], ["Lower bound", (s) => `${number(s.lower_bound)} (${s.lower_bound_name})`],
+      ["Gap to the optimum", (s) => (s.gap === null ? "–" : s.gap === 0 ? "0, proven" : s.lower_bound_name === "optimum" ? percent(s.gap) : `at most ${percent(s.gap)}`)], ["Steps", (s) => number(s.steps)],
       ["Moves d", (s) => number(s.total_distance)], ["Waiting w", (s) => number(s.total_waiting)], ["Longest t", (s) => number(s.longest_time)],
       ["Arrived", (s) => `${number(s.arrived)} of ${number(s.robots)}`], ["Conflicts", (s) => (s.conflicts ? number(s.conflicts) : "none")],
       ["Planned in", (s) => (s.seconds.plan === null ? "–" : `${s.seconds.plan.toPrecision(2)} s`)],
@@ -1392,10 +1428,10 @@ export class App {
   verdict(runs) {
     if (runs.length < 2) return null;
     const [one, two] = runs.map((run) => run.summary), share = two.total_time ? one.total_time / two.total_time - 1 : 0;
-    const names = [`${one.planner} on ${one.tessellation}`, `${two.planner} on ${two.tessellation}`];
-    const scale = one.costs === two.costs ? "" : " (in different units)";
-    const words = Math.abs(share) < 5e-5 ? "take the same total time" : `${share > 0 ? "takes" : "saves"} ${percent(Math.abs(share))} ${share > 0 ? "more" : "of the"} time`;
-    const text = Math.abs(share) < 5e-5 ? `${title(names[0])} and ${names[1]} ${words}.` : share > 0 ? `${title(names[0])} takes ${percent(share)} more time than ${names[1]}${scale}.` : `${title(names[0])} takes ${percent(-share)} less time than ${names[1]}${scale}.`;
+    const isSame = one.tessellation === two.tessellation;
+    const names = [one, two].map((summary) => `${summary.planner}${isSame ? "" : ` on ${summary.tessellation} cells`}`);
+    const text = Math.abs(share) < 5e-5 ? `${title(names[0])} and ${names[1]} take the same total time.` :
+      `${title(names[0])} takes ${percent(Math.abs(share))} ${share > 0 ? "more" : "less"} time than ${names[1]}.`;
     return h("p", { class: "verdict" }, text);
   }
 
@@ -1531,8 +1567,21 @@ export class App {
       this.runs[i]?.playback.seek(step);
       pane.draw(step >= (this.runs[i]?.playback.steps ?? 0) ? 0 : this.clock - step);
     });
+    if (this.panes.some((pane) => pane.isRough)) {
+      clearTimeout(this.settling);
+      this.settling = setTimeout(() => this.settle(), 150);
+    }
     if (this.isPlaying || this.growth?.isPlaying) this.invalidate();
     else this.lastTick = undefined;
+  }
+
+  settle() {
+    for (const pane of this.panes) {
+      if (!pane.isRough) continue;
+      pane.isRough = false;
+      if (pane.view.scale < 1) pane.changed("map");
+    }
+    this.invalidate();
   }
 
   growTick(passed) {
@@ -1747,7 +1796,12 @@ export class App {
   endStroke(stroke) {
     const doc = this.stroked(stroke);
     const isSame = ["barriers", "robots", "destinations"].every((name) => doc[name] === this.doc[name] || (doc[name].length === this.doc[name].length && doc[name].every((value, k) => value === this.doc[name][k])));
-    if (isSame) return this.refresh();
+    if (isSame) {
+      const [cell] = stroke.touched;
+      if (cell !== undefined && this.doc.barriers[cell] && stroke.kind !== "wall") this.say(`Cell (${cell % this.doc.width}, ${Math.floor(cell / this.doc.width)}) is a barrier: erase it first.`, true);
+      return this.refresh();
+    }
+    this.say("");
     this.clock = 0;
     this.edit(doc);
   }
@@ -1922,12 +1976,12 @@ export class App {
     this.follow = -1;
     this.say("");
     this.take(answer);
-    const { free } = this, missing = this.missing();
+    const missing = this.missing();
     this.say(`Opened ${name}: ${number(this.doc.width)} × ${number(this.doc.height)} cells. ${this.runs[0] ? "Press Play." : missing || "Press Plan."}`);
   }
 
   saveDialog() {
-    const { button, select, numberField } = this.parts, { exports } = this.settings, run = this.runs[0];
+    const { button } = this.parts, { exports } = this.settings, run = this.runs[0];
     const what = h("select", { "aria-label": "What to save", onchange: () => update() }, Object.keys(exports).map((name) => h("option", { value: name, disabled: exports[name].plan && !run }, EXPORT_WORDS[name])));
     const suffix = h("select", { "aria-label": "Format", onchange: () => rename() }), name = h("input", { type: "text", "aria-label": "Name", value: "" });
     const base = (this.doc.header.name || "area").replace(/[^\w-]+/g, "-").replace(/^-|-$/g, "") || "area";
@@ -1971,7 +2025,7 @@ export class App {
 
 const sameField = (one, other) => one === other || (one.barriers === other.barriers && one.destinations === other.destinations &&
   ["tessellation", "neighbourhood", "costs", "corners"].every((name) => one.header[name] === other.header[name]));
-const gapWords = (summary) => (summary.optimal || summary.gap === 0 ? "proven optimal" : summary.gap === null ? "gap unknown" : `at most ${percent(summary.gap)} above the optimum`);
+const gapWords = (summary) => (summary.optimal || summary.gap === 0 ? "proven optimal" : summary.gap === null ? "gap unknown" : `${summary.lower_bound_name === "optimum" ? "" : "at most "}${percent(summary.gap)} above the optimum`);
 const wholeOf = (input) => (input.value === "" ? null : Math.max(Number(input.min), Math.round(Number(input.value))));
 
 function stored(key) {
