@@ -124,7 +124,8 @@ def all_nodes(crowd):
     full = destinations if scenario.destination_capacity else destinations[:0]
     vertices = np.array([], dtype=np.int64)
     if crowd.has_vertices:
-        vertices = np.unique(cells[:, None] + layout.vertex_of_direction[cells & 1])
+        edges = scenario.area.tessellation.edge_count
+        vertices = np.unique(cells[:, None] + layout.vertex_of_direction[cells & 1, edges:])
         vertices = np.array([v for v in vertices if crowd.sites_around(v).size], dtype=np.int64) + layout.size
     return np.concatenate([cells, full, vertices]).astype(np.int32)
 

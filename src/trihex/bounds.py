@@ -24,7 +24,7 @@ from trihex.schemes import NOT_REACHED, NScheme
 
 _BUDGET = 2_000_000
 # What the cut bound may cost: sites visited by all searches, slots in memory (some 50 bytes each), looks at slots.
-_MOST_VISITS = 100_000_000
+_MOST_VISITS = 30_000_000
 _MOST_SLOTS = 5_000_000
 _MOST_LOOKS = 200_000_000
 

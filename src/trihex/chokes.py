@@ -16,6 +16,7 @@ from trihex.record import Record, read_only
 from trihex.scenario import Scenario
 
 _BUDGET = 1_000_000
+_ALL_CUTS = 12
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,66 +120,94 @@ class Cut(Record):
 def find_cuts(crowd: Crowd, most_searches: int) -> list[Cut]:
     """Return least cuts for the farthest robots, for ever more of them; each lies nearer to the destinations.
 
-    One unit after another is sent from the farthest robot for which a search back from the destinations finds a way;
-    all robots farther than that are behind a cut of as many nodes as units were sent. Of all such cuts these are the
-    nearest to the destinations.
+    A unit of flow is sent from each robot in turn, the farthest first. Before one that can be sent while the one before
+    could not, and at the end, all tried so far are parted from the destinations by a cut of as many nodes as units were
+    sent. Of all such cuts the one taken is the nearest to the destinations.
 
     Parameters
     ----------
     crowd : Crowd
     most_searches : int
-        Stop after so many; the last cuts may be missing then.
+        How many cuts to look for, at least 1. If there are more, some are left out, but not that for all robots.
     """
-    from trihex.kernels import bounds_cut as kernels
+    return _Flow(crowd).cuts(max(most_searches, 1))
 
-    scenario, layout = crowd.scenario, crowd.scenario.area.layout
-    destinations = layout.cell_to_site(scenario.destinations)
-    room = np.zeros(layout.size, dtype=np.int32)
-    room[destinations] = np.iinfo(np.int32).max
-    if scenario.destination_capacity is not None:
-        room[destinations] = scenario.destination_capacity
-    onward = np.full(crowd.node_count, -1, dtype=np.int32)
-    next_of_in, next_of_out = np.empty_like(onward), np.empty_like(onward)
-    queue = np.empty(2 * crowd.node_count, dtype=np.int32)
-    cuts: list[Cut] = []
-    sent = np.zeros(crowd.sites.size, dtype=bool)
-    for _ in range(most_searches):
-        next_of_in[:] = next_of_out[:] = -1
-        roots = destinations[room[destinations] > 0]
-        next_of_in[roots] = kernels.ROOT
-        queue[: roots.size] = 2 * roots
-        state = np.array([0, roots.size])
-        while state[0] < state[1]:
-            kernels.search_back(
-                scenario.moves,
-                layout.offset_of_direction,
-                layout.vertex_of_direction,
-                layout.ring_of_vertex,
-                crowd.via_of_ring,
-                scenario.area.tessellation.edge_count,
-                crowd.has_vertices,
-                crowd.is_destination,
-                onward,
-                next_of_in,
-                next_of_out,
-                queue,
+
+class _Flow:
+    """The flow from which `find_cuts` reads the cuts."""
+
+    def __init__(self, crowd: Crowd) -> None:
+        scenario, layout = crowd.scenario, crowd.scenario.area.layout
+        self.crowd = crowd
+        self.destinations = layout.cell_to_site(scenario.destinations)
+        self.room = np.zeros(layout.size, dtype=np.int32)
+        most = np.iinfo(np.int32).max
+        self.room[self.destinations] = most if scenario.destination_capacity is None else scenario.destination_capacity
+        self.onward, self.source_of = np.full((2, crowd.node_count), -1, dtype=np.int32)
+        self.ahead = np.empty(2 * layout.offset_of_direction.shape[1] + 1, dtype=np.int32)
+        self.queue = np.empty(2 * crowd.node_count, dtype=np.int32)
+        self.graph = (
+            scenario.moves,
+            layout.offset_of_direction,
+            layout.vertex_of_direction,
+            layout.ring_of_vertex,
+            crowd.via_of_ring,
+            scenario.area.tessellation.edge_count,
+            crowd.has_vertices,
+            crowd.is_destination,
+        )
+
+    def cuts(self, most_searches: int) -> list[Cut]:
+        """Send all units and look for cuts on the way."""
+        from trihex.kernels import bounds_cut as kernels
+
+        robots, robot, tried = self.crowd.sites.size, 0, 0
+        state = np.zeros(3, dtype=np.int64)
+        seen, parent, stack = np.zeros((3, 2 * self.crowd.node_count), dtype=np.int32)
+        cuts: list[Cut] = []
+        while robot < robots:
+            robot = kernels.send_units(
+                self.crowd.sites,
+                robot,
+                self.crowd.steps_of_site,
+                *self.graph,
+                self.room,
+                self.onward,
+                self.source_of,
+                seen,
+                parent,
+                stack,
+                self.queue,
+                self.ahead,
                 state,
                 _BUDGET,
             )
-        is_behind = next_of_in[crowd.sites] == -1
-        free = np.flatnonzero(~is_behind & ~sent)
-        is_cut = (next_of_out >= 0) & (next_of_in == -1)
-        full = destinations[(next_of_in[destinations] == -1)]
-        nodes = np.concatenate([np.flatnonzero(is_cut), full]).astype(np.int32)
-        behind = np.flatnonzero(is_behind[: free[0]] if free.size else is_behind)
-        if nodes.size and behind.size:
-            width = nodes.size + full.size * ((scenario.destination_capacity or 1) - 1)
-            cuts.append(Cut(nodes, width, behind))
-        if not free.size:
-            break
-        sent[free[0]] = True
-        kernels.send_unit(int(crowd.sites[free[0]]), onward, next_of_in, next_of_out, room)
-    return cuts
+            if state[kernels.FAILED] and robot < robots:
+                # As many as the ways into one destination; beyond that only where many more robots are behind.
+                if len(cuts) + 1 < most_searches and (len(cuts) < _ALL_CUTS or robot > 1.5 * tried):
+                    cuts, tried = [*cuts, *self.cut(robot)], robot
+                state[kernels.FAILED] = 0
+        return [*cuts, *self.cut(robots)]
+
+    def cut(self, robot: int) -> list[Cut]:
+        """Return the cut nearest to the destinations that parts robots ``0..robot - 1`` from them, if it parts any."""
+        from trihex.kernels import bounds_cut as kernels
+
+        leads_on = np.zeros(2 * self.crowd.node_count, dtype=bool)
+        roots = 2 * self.destinations[self.room[self.destinations] > 0]
+        leads_on[roots] = True
+        head, tail = 0, roots.size
+        self.queue[:tail] = roots
+        while head < tail:
+            end = min(tail, head + _BUDGET)
+            tail = kernels.search_back(*self.graph, self.onward, leads_on, self.queue, head, tail, _BUDGET)
+            head = end
+        is_in, is_out = leads_on[::2], leads_on[1::2]
+        full = self.destinations[~is_in[self.destinations]]
+        nodes = np.concatenate([np.flatnonzero(is_out & ~is_in), full]).astype(np.int32)
+        behind = np.flatnonzero(~is_in[self.crowd.sites[:robot]])
+        capacity = self.crowd.scenario.destination_capacity or 1
+        return [Cut(nodes, nodes.size + full.size * (capacity - 1), behind)] if behind.size else []
 
 
 def find_crowded_nodes(crowd: Crowd, most: int, most_looks: int = 3_000_000) -> NDArray[np.int32]:

@@ -1,20 +1,69 @@
 """Least cuts between robots and destinations, by a flow that sends one unit a step through each place.
 
 A *node* is a site, or ``size + vertex`` for a lattice vertex where crossing is forbidden. Each node but a destination
-passes at most one unit, so ``onward[node]`` (-1: no unit) holds the whole flow. Nodes are entered at their *in* and
-left at their *out*. The search runs back from the destinations over all residual arcs; ``next_of_in`` and
-``next_of_out`` name the node ahead on the way there (a node itself: its other half), -1 where no way leads there.
+passes at most one unit, so ``onward[node]`` (-1: no unit) and its inverse ``source_of[node]`` (the node itself: the
+unit starts there) hold the whole flow. Nodes are entered at their *in*, 2 * node, and left at their *out*,
+2 * node + 1; a unit may be led along any *residual arc*: on, or back where another came, which then goes elsewhere.
 """
 
 from numba import njit, types
 
 from trihex.kernels.signatures import IN_BOOL, IN_I32, IN_U16, OUT_BOOL, OUT_I32, OUT_I64, TABLE_I32
 
-NO, ROOT = -1, -2
+DEAD = 2**31 - 1
+# Entries of the state of `send_units`.
+STAMP, SENT, FAILED = range(3)
 
 
 @njit(
-    types.void(
+    types.int64(
+        types.int64,
+        IN_I32,
+        IN_U16,
+        TABLE_I32,
+        TABLE_I32,
+        IN_I32,
+        IN_U16,
+        types.int64,
+        types.boolean,
+        OUT_I32,
+    ),
+    cache=True,
+    nogil=True,
+)
+def _list_ahead(node, steps, moves, offset, vertex, ring, via, edge_count, has_vertices, ahead):
+    """List the nodes that can be entered from `node` (the same that it can be entered from); the nearest comes last."""
+    size = len(moves)
+    count = 0
+    nearest = 0
+    least = DEAD
+    if node >= size:
+        for i in range(len(ring)):
+            site = node - size + ring[i]
+            if moves[site] & via[i]:
+                ahead[count] = site
+                if steps[site] < least:
+                    nearest, least = count, steps[site]
+                count += 1
+    else:
+        for k in range(offset.shape[1]):
+            if moves[node] >> k & 1:
+                site = node + offset[node & 1, k]
+                if steps[site] < least:
+                    nearest, least = count, steps[site]
+                if has_vertices and k >= edge_count:
+                    site = size + node + vertex[node & 1, k]
+                ahead[count] = site
+                count += 1
+    ahead[nearest], ahead[count - 1] = ahead[count - 1], ahead[nearest]
+    return count
+
+
+@njit(
+    types.int64(
+        IN_I32,
+        types.int64,
+        IN_I32,
         IN_U16,
         TABLE_I32,
         TABLE_I32,
@@ -23,7 +72,11 @@ NO, ROOT = -1, -2
         types.int64,
         types.boolean,
         IN_BOOL,
-        IN_I32,
+        OUT_I32,
+        OUT_I32,
+        OUT_I32,
+        OUT_I32,
+        OUT_I32,
         OUT_I32,
         OUT_I32,
         OUT_I32,
@@ -33,67 +86,155 @@ NO, ROOT = -1, -2
     cache=True,
     nogil=True,
 )
-def search_back(
-    moves, offset, vertex, ring, via, edge_count, has_vertices, is_destination, onward, next_of_in, next_of_out,
-    queue, state, budget,
+def send_units(
+    start, first, steps, moves, offset, vertex, ring, via, edge_count, has_vertices, is_destination, room,
+    onward, source_of, seen, parent, stack, trail, ahead, state, budget,
 ):  # fmt: skip
-    """Go on with the search from ``queue[state[0]:state[1]]`` (2 * node, + 1 for an out), at most `budget` entries."""
+    """Send units from the sites ``start[first:]`` to the destinations; return the index of the next one to send.
+
+    Returns before a unit that can be sent though the one before it could not, after about `budget` looks, or at the
+    end. Searches go depth first to where the fewest `steps` are left. What a failing search has seen leads nowhere ever
+    after (`DEAD` in `seen`).
+    """
     size = len(moves)
-    head, tail = state[0], state[1]
-    end = head + budget
-    while head < tail and head < end:
-        node = queue[head] >> 1
-        is_out = queue[head] & 1
-        head += 1
-        if is_out:
-            target = onward[node] if onward[node] >= 0 else node
-            if next_of_in[target] == NO:
-                next_of_in[target] = node
-                queue[tail] = 2 * target
+    for r in range(first, len(start)):
+        if budget <= 0:
+            return r
+        item = 2 * start[r]
+        if seen[item] == DEAD:
+            state[FAILED] += 1
+            continue
+        state[STAMP] += 1
+        stamp = state[STAMP]
+        seen[item] = stamp
+        parent[item] = -1
+        stack[0] = item
+        trail[0] = item
+        height = 1
+        marks = 1
+        found = -1
+        while height > 0:
+            height -= 1
+            budget -= 1
+            item = stack[height]
+            node = item >> 1
+            is_onto = node < size and is_destination[node]
+            count = 0
+            if item & 1:
+                count = _list_ahead(node, steps, moves, offset, vertex, ring, via, edge_count, has_vertices, ahead)
+                for i in range(count):
+                    ahead[i] *= 2
+                if onward[node] >= 0:
+                    ahead[count] = 2 * node
+                    count += 1
+            elif is_onto:
+                if room[node] > 0:
+                    found = item
+                    break
+                count = _list_ahead(node, steps, moves, offset, vertex, ring, via, edge_count, has_vertices, ahead)
+                for i in range(count):
+                    ahead[i] = 2 * ahead[i] + 1 if onward[ahead[i]] == node else -1
+            elif onward[node] < 0:
+                ahead[0] = 2 * node + 1
+                count = 1
+            elif source_of[node] != node:
+                ahead[0] = 2 * source_of[node] + 1
+                count = 1
+            for i in range(count):
+                after = ahead[i]
+                if after >= 0 and seen[after] < stamp:
+                    seen[after] = stamp
+                    parent[after] = item
+                    stack[height] = after
+                    trail[marks] = after
+                    height += 1
+                    marks += 1
+        if found < 0:
+            for i in range(marks):
+                seen[trail[i]] = DEAD
+            state[FAILED] += 1
+            continue
+        if state[FAILED] > 0:
+            return r
+        state[SENT] += 1
+        item = found
+        room[item >> 1] -= 1
+        while parent[item] >= 0:
+            before = parent[item]
+            here, there = before >> 1, item >> 1
+            if before & 1 and here != there:
+                onward[here] = there
+                source_of[there] = here
+            elif before & 1:
+                onward[here] = -1
+            item = before
+        source_of[item >> 1] = item >> 1
+    return len(start)
+
+
+@njit(
+    types.int64(
+        IN_U16,
+        TABLE_I32,
+        TABLE_I32,
+        IN_I32,
+        IN_U16,
+        types.int64,
+        types.boolean,
+        IN_BOOL,
+        IN_I32,
+        OUT_BOOL,
+        OUT_I32,
+        types.int64,
+        types.int64,
+        types.int64,
+    ),
+    cache=True,
+    nogil=True,
+)
+def search_back(
+    moves, offset, vertex, ring, via, edge_count, has_vertices, is_destination,
+    onward, leads_on, queue, head, tail, budget,
+):  # fmt: skip
+    """Go back along residual arcs from ``queue[head:tail]``, at most `budget` items; return the new tail.
+
+    ``leads_on[item]`` tells whether a residual way leads from the item to a destination that has room.
+    """
+    size = len(moves)
+    for at in range(head, min(tail, head + budget)):
+        item = queue[at]
+        node = item >> 1
+        if item & 1:
+            item = 2 * onward[node]
+            if not leads_on[item]:
+                leads_on[item] = True
+                queue[tail] = item
                 tail += 1
             continue
-        if onward[node] >= 0 and next_of_out[node] == NO:
-            next_of_out[node] = node
-            queue[tail] = 2 * node + 1
+        if onward[node] >= 0 and not leads_on[item + 1]:
+            leads_on[item + 1] = True
+            queue[tail] = item + 1
             tail += 1
-        if node >= size:
-            for i in range(len(ring)):
-                site = node - size + ring[i]
-                if moves[site] & via[i] and not is_destination[site] and next_of_out[site] == NO:
-                    next_of_out[site] = node
-                    queue[tail] = 2 * site + 1
-                    tail += 1
-            continue
-        for k in range(offset.shape[1]):
-            if moves[node] >> k & 1:
-                if has_vertices and k >= edge_count:
-                    before = size + node + vertex[node & 1, k]
-                else:
-                    before = node + offset[node & 1, k]
-                    if is_destination[before]:
-                        continue
-                if next_of_out[before] == NO:
-                    next_of_out[before] = node
+        for i in range(len(ring) if node >= size else offset.shape[1]):
+            if node >= size:
+                before = node - size + ring[i]
+                is_open = moves[before] & via[i] != 0
+            elif has_vertices and i >= edge_count:
+                before = size + node + vertex[node & 1, i]
+                is_open = moves[node] >> i & 1 != 0
+            else:
+                before = node + offset[node & 1, i]
+                is_open = moves[node] >> i & 1 != 0
+            if is_open and not leads_on[2 * before + 1] and not (before < size and is_destination[before]):
+                leads_on[2 * before + 1] = True
+                if onward[before] >= 0:
                     queue[tail] = 2 * before + 1
                     tail += 1
-    state[0], state[1] = head, tail
-
-
-@njit(types.void(types.int64, OUT_I32, IN_I32, IN_I32, OUT_I32), cache=True, nogil=True)
-def send_unit(start, onward, next_of_in, next_of_out, room):
-    """Send one more unit from the site `start` along the way that the search has found."""
-    node = start
-    while True:
-        ahead = next_of_in[node]
-        if ahead == ROOT:
-            room[node] -= 1
-            return
-        node = ahead  # itself, or the one whose unit need not come here any more
-        while next_of_out[node] == node:  # nor anywhere else: who fed it feeds another
-            onward[node] = NO
-            node = next_of_in[node]
-        onward[node] = next_of_out[node]
-        node = next_of_out[node]
+                elif not leads_on[2 * before]:  # the other half of a free node, at once
+                    leads_on[2 * before] = True
+                    queue[tail] = 2 * before
+                    tail += 1
+    return tail
 
 
 @njit(
