@@ -58,6 +58,7 @@ if TYPE_CHECKING:
     from trihex.picture import picture_of_n_scheme as picture_of_n_scheme
     from trihex.picture import picture_of_plan as picture_of_plan
     from trihex.plan import Plan as Plan
+    from trihex.planners import make_plan as make_plan
     from trihex.plotting import draw_area as draw_area
     from trihex.plotting import draw_arrivals as draw_arrivals
     from trihex.plotting import draw_comparison as draw_comparison
@@ -118,6 +119,7 @@ _MODULE_OF_NAME = {
     "make_lower_bound": "bounds",
     "make_maze_area": "generators",
     "make_n_scheme": "schemes",
+    "make_plan": "planners",
     "make_random_area": "generators",
     "make_report": "report",
     "make_rooms_area": "generators",
