@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from trihex.errors import ScenarioError
+from trihex.kernels.fields_table import make_front_table
 from trihex.record import Record, read_only
 from trihex.scenario import Scenario
 
 NOT_REACHED = 2**31 - 1
+_BUDGET = 1 << 16  # cells settled in one call of a kernel, about 1 ms
+_BLOCK = 1 << 24  # sites given their directions in one call, even
+_LEAST_LIST = 1 << 12
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,10 +30,14 @@ class NScheme(Record):
     distance_of_site : ndarray of int32, shape (layout.size,)
         In the unit of the cost table; `NOT_REACHED` at barriers, in the padding, and where no destination can be
         reached.
+    horizon : int
+        All distances below it are known; it is `NOT_REACHED`, and so all are, unless the scheme was made for the
+        robots only. Cells at the horizon or beyond count as not reached.
     """
 
     scenario: Scenario
     distance_of_site: NDArray[np.int32]
+    horizon: int = NOT_REACHED
 
     @cached_property
     def distance(self) -> NDArray[np.int32]:
@@ -74,8 +84,30 @@ class DScheme(Record):
         return tuple(name for k, name in enumerate(names) if bits >> k & 1)
 
 
-def make_n_scheme(scenario: Scenario) -> NScheme:
-    """Compute the N-scheme of `scenario`.
+def make_n_scheme(
+    scenario: Scenario, *, robots_only: bool = False, progress: Callable[[int, int], None] | None = None
+) -> NScheme:
+    """Compute the N-scheme of `scenario`, in time and memory O(b), b the number of cells.
+
+    Parameters
+    ----------
+    scenario : Scenario
+    robots_only : bool
+        Stop as soon as the distance of every robot is known. Cells as near as the farthest robot then have their
+        distance, farther ones may be `NOT_REACHED`: enough to follow shortest paths from every robot, but not to let
+        robots step aside into cells farther from a destination. See `NScheme.horizon`.
+    progress : callable, optional
+        Called with (cells settled, free cells) now and then.
+
+    Raises
+    ------
+    ScenarioError
+        If a cell is farther than 2 000 000 000 from every destination and yet can be reached.
+
+    Notes
+    -----
+    The fixed point does not depend on the order of updates; here cells are settled in the order of their distance,
+    each once: see `trihex.kernels.fields`.
 
     Examples
     --------
@@ -85,19 +117,44 @@ def make_n_scheme(scenario: Scenario) -> NScheme:
     """
     from trihex.kernels import fields as kernels
 
-    area = scenario.area
-    layout = area.layout
-    distance = np.full(layout.size, NOT_REACHED, dtype=np.int32)
-    kernels.spread(
-        layout.cell_to_site(scenario.destinations),
+    area, layout, tessellation = scenario.area, scenario.area.layout, scenario.area.tessellation
+    is_masked = scenario.corners != "allow" and tessellation.edge_count < tessellation.direction_count
+    table, direction, slots, first = make_front_table(
+        tessellation.step_of_direction,
         layout.offset_of_direction,
-        area.tessellation.cost_of_direction,
-        scenario.moves,
-        distance,
-        np.empty(area.free_count + 1, dtype=np.int32),
-        np.zeros(layout.size, dtype=np.uint16),
+        tessellation.cost_of_direction,
+        tessellation.edge_count,
+        not is_masked,
     )
-    return NScheme(scenario, read_only(distance))
+    cost = np.unique(tessellation.cost_of_direction)
+    moves = scenario.moves if is_masked else np.empty(0, dtype=np.uint16)
+    distance = np.empty(layout.size, dtype=np.int32)
+    kernels.prepare(area.barriers, layout.origin, layout.pitch, distance)
+    sites = layout.cell_to_site(scenario.destinations).astype(np.int64)
+    distance[sites] = 0
+    entries = np.concatenate([sites[sites & 1 == o] + (row << 32) for o in (0, 1) for row in first[o]])
+    lists = np.empty((3, max(_LEAST_LIST, 2 * entries.size)), dtype=np.uint64)
+    lists[0, : entries.size] = entries
+    state = np.zeros(kernels.STATE_SIZE, dtype=np.int64)
+    state[kernels.COUNT], state[kernels.BUCKET_END] = entries.size, cost[0]
+    waiting = layout.cell_to_site(scenario.robots)
+    settle, done = kernels.make_settle(slots, is_masked), 0
+    while state[kernels.REASON] != kernels.DONE:
+        settle(state, lists.reshape(-1), table, direction, cost, moves, distance, _BUDGET)
+        if state[kernels.REASON] == kernels.LISTS_FULL:
+            lists = np.concatenate([lists, np.empty_like(lists)], axis=1)
+        elif state[kernels.REASON] == kernels.TOO_FAR:
+            raise ScenarioError(f"distances must stay below {kernels.FARTHEST}; a reachable cell is farther away")
+        if robots_only:
+            waiting = waiting[distance[waiting] >= state[kernels.BUCKET_END]]
+            if waiting.size == 0:
+                break
+        if progress is not None:
+            done = min(done + _BUDGET, area.free_count)
+            progress(done, area.free_count)
+    horizon = NOT_REACHED if state[kernels.REASON] == kernels.DONE else int(state[kernels.BUCKET_END])
+    kernels.finish(distance, horizon)
+    return NScheme(scenario, read_only(distance), horizon)
 
 
 def make_d_scheme(n_scheme: NScheme) -> DScheme:
@@ -110,18 +167,20 @@ def make_d_scheme(n_scheme: NScheme) -> DScheme:
     >>> make_d_scheme(n_scheme).names_of_cell(5)
     ('NW',)
     """
-    from trihex.kernels import fields as kernels
+    from trihex.kernels import fields_directions as kernels
 
     scenario = n_scheme.scenario
     layout = scenario.area.layout
     directions = np.zeros(layout.size, dtype=np.uint16)
-    kernels.fill_directions(
-        n_scheme.distance_of_site,
-        scenario.moves,
-        layout.offset_of_direction,
-        scenario.area.tessellation.cost_of_direction,
-        layout.origin,
-        layout.origin + layout.height * layout.pitch,
-        directions,
-    )
+    for start in range(layout.origin, layout.origin + layout.height * layout.pitch, _BLOCK):
+        kernels.fill_directions(
+            n_scheme.distance_of_site,
+            layout.offset_of_direction,
+            scenario.area.tessellation.cost_of_direction,
+            start,
+            min(start + _BLOCK, layout.origin + layout.height * layout.pitch),
+            directions,
+        )
+    if scenario.corners != "allow":
+        directions &= scenario.moves
     return DScheme(n_scheme, read_only(directions))

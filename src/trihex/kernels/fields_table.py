@@ -1,0 +1,77 @@
+"""Table of a front: the moves worth trying after the move that led to a cell."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def make_front_table(
+    step: NDArray[np.int32], offset: NDArray[np.int32], cost: NDArray[np.int32], edge_count: int, is_free_to_turn: bool
+) -> tuple[NDArray[np.uint64], NDArray[np.uint64], tuple[int, ...], list[list[int]]]:
+    """Return which moves may be the first to reach a cell, given the move that reached the cell before.
+
+    A robot that came from p to c and goes on to n might as well have gone from p to n, if n is p or a neighbour of p:
+    no move costs more than two others. So c need not try n. Of 8 or 12 moves, 3 to 7 are left.
+
+    Parameters
+    ----------
+    step : (2, directions, 2) array
+        dx and dy of the directions, for both orientations.
+    offset : (2, directions) array
+        What to add to a site; ``site & 1`` is the orientation, unless both rows of `step` are equal.
+    cost : (directions,) array
+        Ascending. Directions of equal cost form a *group*.
+    edge_count : int
+    is_free_to_turn : bool
+        Whether every move to a free cell is open. If not, only edge moves are sure to be open from p to n.
+
+    Returns
+    -------
+    table : uint64 array
+        One row for each kind of move (orientation of the source, direction): the moves worth trying after it, by
+        group, padded with moves that go nowhere; then what lies four such moves ahead. A move is what to add to a
+        site to get an entry of the queue: the site it leads to in the low half, the start of its row in the high.
+    direction : uint64 array
+        The direction of each move of `table`.
+    slots : tuple of int
+        How many columns each group has.
+    first : two lists of int
+        Starts of rows that between them try all moves from a cell of orientation 0 and 1, to begin with.
+    """
+    steps, offsets, costs = step.tolist(), offset.tolist(), cost.tolist()
+    if costs[-1] > 2 * costs[0]:
+        raise ValueError("no move may cost more than two others")
+    orientations = 1 if steps[0] == steps[1] else 2
+    directions = range(len(costs))
+    kinds = [(o, k) for o in range(orientations) for k in directions]
+    row_of_kind = {kind: row for row, kind in enumerate(kinds)}
+    target = [(o + offsets[o][k]) % orientations for o, k in kinds]
+    after = []
+    for (o, k), t in zip(kinds, target, strict=True):
+        near = {(0, 0)} | {tuple(steps[o][j]) for j in directions if is_free_to_turn or j < edge_count}
+        dx, dy = steps[o][k]
+        after.append([j for j in directions if (dx + steps[t][j][0], dy + steps[t][j][1]) not in near])
+    groups = [[[j for j in moves if costs[j] == c] for c in sorted(set(costs))] for moves in after]
+    slots = tuple(max(map(len, group)) for group in zip(*groups, strict=True))
+    columns = sum(slots) + 1
+    table = np.zeros((len(kinds), columns), dtype=np.int64)
+    direction = np.zeros((len(kinds), columns), dtype=np.uint64)
+    for row, (o, k) in enumerate(kinds):
+        t = target[row]
+        for g, moves in enumerate(groups[row]):
+            for column, j in enumerate(moves, start=sum(slots[:g])):
+                table[row, column] = (row_of_kind[t, j] * columns << 32) + offsets[t][j]
+                direction[row, column] = j
+        table[row, -1] = 4 * offsets[o][k]
+    first = [[columns * row for row in _cover(after, target, o)] for o in (0, orientations - 1)]
+    return table.astype(np.uint64).reshape(-1), direction.reshape(-1), slots, first
+
+
+def _cover(after: list[list[int]], target: list[int], orientation: int) -> list[int]:
+    """Return a few rows that lead to cells of `orientation` and between them try all moves from there."""
+    rows = [row for row, t in enumerate(target) if t == orientation]
+    missing = {j for row in rows for j in after[row]}
+    chosen: list[int] = []
+    while missing:
+        chosen.append(max(rows, key=lambda row: len(missing.intersection(after[row]))))
+        missing.difference_update(after[chosen[-1]])
+    return chosen
