@@ -20,7 +20,7 @@ Progress = Callable[[int, int], None]
 Planner = Callable[..., Plan]
 
 # Name: the module under trihex.planners that defines plan_<name>.
-PLANNERS: dict[str, str] = {"greedy": "greedy"}
+PLANNERS: dict[str, str] = {"greedy": "greedy", "fcost": "fcost"}
 
 
 def planner_named(name: str) -> Planner:
