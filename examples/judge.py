@@ -1,0 +1,25 @@
+"""The judge at work: a plan made by hand in which everything goes wrong, and what the audit says of it."""
+
+import sys
+from pathlib import Path
+
+import trihex as th
+from trihex.plan import WAIT, plan_from_lists
+
+folder = Path(sys.argv[1] if len(sys.argv) > 1 else ".")
+N, E, S, W, NE, SE, SW, NW = range(8)
+area = th.Area("square", [[0, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 0]])
+robots = [(0, 0), (1, 0), (0, 1), (1, 1), (3, 2)]
+scenario = th.Scenario(area, destinations=[(3, 0)], robots=robots)
+actions = [
+    [E, E, E],  # robot 0 exchanges cells with robot 1
+    [W, E, E, E, WAIT],  # ... and waits after it has arrived
+    [SE, E, NE, N],  # crosses the way of robot 3
+    [SW, N, E, E],  # and goes on into the barrier
+    [WAIT],  # stops before it has arrived
+]
+audit = th.audit_plan(plan_from_lists(scenario, actions))
+print("clean" if audit.is_clean else f"{audit.conflict_count} conflicts")
+for conflict in audit.conflicts:
+    print(f"{conflict.kind:9} {conflict}")
+th.picture_of_area(scenario, width=300).save(folder / "judge.png")
