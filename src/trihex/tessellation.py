@@ -265,6 +265,8 @@ class Layout(Record):
     def pitch(self) -> int:
         """Sites from one row to the next."""
         pitch = self.width + 2
+        if pitch > 500 and (pitch + 8) % 512 < 16:
+            pitch += 16  # rows 4 KiB apart keep throwing each other out of the cache: fields were 1.3 times slower
         wrong = {"triangular": pitch % 2 == 0, "hexagonal": pitch % 2 == 1, "square": False}
         return pitch + wrong[self.tessellation.name]
 
