@@ -18,12 +18,13 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from trihex.area import Area
 from trihex.audit import audit_plan
 from trihex.automaton import distance_generations
 from trihex.bounds import LowerBound, distance_bound, make_lower_bound, slot_bound
 from trihex.errors import FormatError, TooLargeError, TrihexError, check_choice
 from trihex.formats import read_draft, read_plan, read_starts
-from trihex.formats.draft import Draft
+from trihex.formats.draft import Draft, draft_of
 from trihex.formats.files import read_bytes
 from trihex.formats.recognise import format_of
 from trihex.generators import GENERATORS
@@ -86,12 +87,13 @@ class Desk:
             log.exception("a request of the page failed")
             send(encode({"kind": "error", "message": f"this is a fault of trihex: {error!r:.200}"}))
 
-    def show(self, record: Draft | Plan) -> Bundle:
-        """Return what a page shows of a draft or a plan, as the result of "open" does."""
-        call = _Call({}, lambda _: None, lambda: False)
+    def show(self, record: Area | Scenario | Draft | Plan) -> Bundle:
+        """Return what a page shows of a record, as the result of "open" does."""
         if isinstance(record, Plan):
-            return self._shown(record, {}, call)
-        return _drafted(_drawn(record))
+            return self._shown(record, {}, _Call({}, lambda _: None, lambda: False))
+        if isinstance(record, Scenario):
+            return _drafted(draft_of(record))
+        return _drafted(_drawn(Draft(record) if isinstance(record, Area) else record))
 
     def _files(self, request: ask.ListFiles, call: _Call) -> Bundle:
         names = self.folder.names() if self.folder else []

@@ -905,7 +905,7 @@ export class App {
     this.stage = h("div", { class: "panes" }, this.paneElements);
     this.status = h("div", { class: "status", role: "status" });
     this.readout = h("div", { class: "readout", id: "trihex-readout", "aria-live": "polite" });
-    const stage = h("section", { class: "stage", "aria-label": "Picture" }, this.status, h("div", { class: "view" }, this.stage, zoom), h("div", { class: "under" }, this.readout, this.legend), this.buildTransport());
+    const stage = h("section", { class: "stage", "aria-label": "Picture" }, this.status, h("div", { class: "view" }, this.stage), h("div", { class: "under" }, this.readout, this.legend, zoom), this.buildTransport());
     this.panel = h("aside", { class: "panel", "aria-label": "Controls" }, this.buildPanel(can));
     const main = h("main", { class: can ? "main" : "main alone" }, can ? tools : null, stage, this.panel);
     this.dialog = h("dialog", { class: "dialog" });
