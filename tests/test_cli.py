@@ -53,6 +53,14 @@ def test_plan_prints_a_report(folder):
     assert lines[3] == "safe: no conflicts"
 
 
+def test_fcost_plans_unless_another_is_named(folder):
+    assert run("plan", "world.txt").stdout.splitlines()[1].startswith("fcost: 3 of 3")
+    summary = json.loads(run("plan", "world.txt", "--planner-option", "rule=paper", "--summary", "-").stdout)
+    assert (summary["planner"].split()[0], summary["arrived"]) == ("fcost", 3)
+    error = run("plan", "world.txt", "--planner-option", "rulle=paper", status=2).stderr
+    assert "option of planner 'fcost' must be one of rule, not 'rulle'; did you mean 'rule'?" in error
+
+
 def test_summary_has_the_documented_keys(folder):
     summary = json.loads(plan("--summary", "-").stdout)
     assert list(summary) == SUMMARY_KEYS
