@@ -134,24 +134,18 @@ def _judged(
     from trihex.kernels import audit as kernels
 
     scenario, layout = plan.scenario, plan.scenario.area.layout
-    ground, robots = _ground(scenario), scenario.robot_count
+    place, robots = _places(scenario), scenario.robot_count
     site, came_from, rank, active, ended = (np.zeros(robots, dtype=np.int32) for _ in range(5))
     passed = np.full(robots, -1, dtype=np.int32)
-    holder = np.zeros(layout.size, dtype=np.int32)
-    forbid = scenario.crossing == "forbid"
+    forbid = scenario.crossing == "forbid" and layout.ring_of_vertex.size > 0
     vertex_holder = np.zeros(layout.size if forbid else 0, dtype=np.int32)
     found = np.full((max(limit, 0), 8), -1, dtype=np.int32)
     state = np.zeros(3, dtype=np.int64)
-    kernels.begin(
-        layout.cell_to_site(scenario.robots), plan.first_action, ground, site, came_from, active, state, found
-    )
-    parked = np.flatnonzero(came_from == kernels.PARKED)
-    holder[site[parked]] = parked
+    kernels.begin(layout.cell_to_site(scenario.robots), plan.first_action, place, site, came_from, active, state, found)
     while state[kernels.ACTIVE]:
         kernels.judge(
             plan.actions,
             plan.first_action,
-            ground,
             layout.offset_of_direction,
             layout.vertex_of_direction,
             layout.ring_of_vertex,
@@ -164,7 +158,7 @@ def _judged(
             came_from,
             passed,
             rank,
-            holder,
+            place,
             vertex_holder,
             active,
             ended,
@@ -179,16 +173,16 @@ def _judged(
     return found[:count], count, site, np.flatnonzero(came_from == kernels.PARKED)
 
 
-def _ground(scenario: Scenario) -> NDArray[np.uint8]:
-    """Return what lies at each site: free, destination, barrier or outside."""
+def _places(scenario: Scenario) -> NDArray[np.int32]:
+    """Return what lies at each site, and as yet robot 0, as the kernels write it."""
     from trihex.kernels import audit as kernels
 
     area, layout = scenario.area, scenario.area.layout
-    ground = np.full(layout.size, kernels.OUTSIDE, dtype=np.uint8)
-    rows = ground[layout.origin : layout.origin + area.height * layout.pitch].reshape(area.height, layout.pitch)
-    rows[:, : area.width] = np.where(area.barriers, np.uint8(kernels.BARRIER), np.uint8(kernels.FREE))
-    ground[layout.cell_to_site(scenario.destinations)] = kernels.DESTINATION
-    return ground
+    place = np.full(layout.size, kernels.OUTSIDE, dtype=np.int32)
+    rows = place[layout.origin : layout.origin + area.height * layout.pitch].reshape(area.height, layout.pitch)
+    rows[:, : area.width] = np.where(area.barriers, np.int32(kernels.BARRIER), np.int32(0))
+    place[layout.cell_to_site(scenario.destinations)] = ~0
+    return place
 
 
 def _is_reachable(scenario: Scenario, cells: NDArray[np.int64]) -> NDArray[np.bool_]:
@@ -196,31 +190,25 @@ def _is_reachable(scenario: Scenario, cells: NDArray[np.int64]) -> NDArray[np.bo
     from trihex.kernels import audit as kernels
 
     area, layout = scenario.area, scenario.area.layout
+    start, place = layout.cell_to_site(cells), _places(scenario)
+    mark = np.full(layout.size, kernels.UNKNOWN, dtype=np.uint8)
     queue = np.empty(area.free_count, dtype=np.int32)
-    reached = np.zeros(layout.size, dtype=bool)
-    head, tail = 0, scenario.destinations.size
-    queue[:tail] = layout.cell_to_site(scenario.destinations)
-    reached[queue[:tail]] = True
-    ground = _ground(scenario)
-    while head < tail:
-        done, tail = (
-            tail,
-            kernels.flood(
-                ground,
-                layout.offset_of_direction,
-                layout.vertex_of_direction,
-                layout.ring_of_vertex,
-                area.tessellation.edge_count,
-                CORNERS.index(scenario.corners),
-                reached,
-                queue,
-                head,
-                tail,
-                _BUDGET,
-            ),
+    state = np.zeros(5, dtype=np.int64)
+    while state[kernels.NEXT] < start.size:
+        kernels.flood(
+            start,
+            place,
+            layout.offset_of_direction,
+            layout.vertex_of_direction,
+            layout.ring_of_vertex,
+            area.tessellation.edge_count,
+            CORNERS.index(scenario.corners),
+            mark,
+            queue,
+            state,
+            _BUDGET,
         )
-        head = min(done, head + _BUDGET)
-    return np.asarray(reached[layout.cell_to_site(cells)])
+    return np.asarray(mark[start] == kernels.OPEN)
 
 
 def _conflict(plan: Plan, row: NDArray[np.int32]) -> Conflict:
