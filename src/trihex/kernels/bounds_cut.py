@@ -12,7 +12,7 @@ from trihex.kernels.signatures import IN_BOOL, IN_I32, IN_U16, OUT_BOOL, OUT_I32
 
 DEAD = 2**31 - 1
 # Entries of the state of `send_units`.
-STAMP, SENT, FAILED = range(3)
+STAMP, SENT, FAILED, LOOKS = range(4)
 
 
 @njit(
@@ -116,6 +116,7 @@ def send_units(
         while height > 0:
             height -= 1
             budget -= 1
+            state[LOOKS] += 1
             item = stack[height]
             node = item >> 1
             is_onto = node < size and is_destination[node]
