@@ -14,12 +14,13 @@ else
   INSTALL = $(BIN)/python -m pip install --quiet --disable-pip-version-check
 endif
 
-.PHONY: help demo test lint bench golden clean
+.PHONY: help demo test lint bench docs figures golden clean
 help:
 	@echo "make demo    plan with every planner on three tessellations; a table, a picture and an animation in demo/"
 	@echo "make test    all tests"
 	@echo "make lint    ruff, mypy and import-linter"
 	@echo "make bench   speed, as ratios against other libraries"
+	@echo "make docs    the documentation in build/docs; make figures draws its pictures anew"
 	@echo "make clean   remove the environment and all caches"
 
 # What a user needs, and beyond it what a developer needs: the demo waits only for the former.
@@ -32,6 +33,9 @@ $(VENV)/.dev: pyproject.toml $(VENV)/.user
 	@touch $@
 $(VENV)/.bench: pyproject.toml $(VENV)/.user
 	$(INSTALL) -e '.[bench]'
+	@touch $@
+$(VENV)/.docs: pyproject.toml $(VENV)/.user
+	$(INSTALL) -e '.[docs]'
 	@touch $@
 
 demo: $(VENV)/.user
@@ -48,6 +52,13 @@ lint: $(VENV)/.dev
 
 bench: $(VENV)/.bench
 	$(BIN)/python -m benchmarks
+
+docs: $(VENV)/.docs
+	$(BIN)/python -m sphinx --fail-on-warning --keep-going -q -b html docs build/docs
+	@echo "build/docs/index.html"
+
+figures: $(VENV)/.docs
+	$(BIN)/python -m examples
 
 clean:
 	rm -rf $(VENV) demo build dist .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache

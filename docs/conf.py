@@ -48,6 +48,7 @@ class PublicNames(SphinxDirective):
     final_argument_whitespace = True
 
     def run(self):
+        """Return the nodes of the names."""
         lines = []
         for module in self.arguments[0].split():
             names = [name for name, home in trihex._MODULE_OF_NAME.items() if home == module]
@@ -62,6 +63,7 @@ class Planners(SphinxDirective):
     """The function of every planner in the registry."""
 
     def run(self):
+        """Return the nodes of the planners."""
         lines = []
         for name, module in PLANNERS.items():
             path = f"trihex.planners.{module}.plan_{name}"
@@ -73,6 +75,7 @@ class CommandHelp(SphinxDirective):
     """What `trihex COMMAND --help` prints, for every command."""
 
     def run(self):
+        """Return a title and a block for each command."""
         top = click.Context(command_line, info_name="trihex", max_content_width=100, terminal_width=100)
         found = []
         for name in command_line.list_commands(top):
@@ -95,6 +98,7 @@ def _directive_of(path, value):
 
 
 def setup(app):
+    """Make the directives known to sphinx."""
     app.add_directive("public-names", PublicNames)
     app.add_directive("planners", Planners)
     app.add_directive("command-help", CommandHelp)

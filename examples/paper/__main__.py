@@ -5,5 +5,6 @@ from examples.paper import automaton, configurations, directions, fcost_by_hand,
 
 MODULES = (neighbourhoods, configurations, flow_chart, automaton, directions, misprints, fcost_by_hand)
 
-for module in MODULES:
-    print(*save(folder_from_arguments(), module.figures()), sep="\n")
+if __name__ == "__main__":
+    for module in MODULES:
+        print(*save(folder_from_arguments(), module.figures()), sep="\n")
