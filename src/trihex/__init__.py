@@ -74,6 +74,9 @@ if TYPE_CHECKING:
     from trihex.schemes import make_d_scheme as make_d_scheme
     from trihex.schemes import make_n_scheme as make_n_scheme
     from trihex.tessellation import Tessellation as Tessellation
+    from trihex.viewer.launch import open_viewer as open_viewer
+    from trihex.viewer.page import write_page as write_page
+    from trihex.viewer.widget import make_widget as make_widget
 
 _MODULE_OF_NAME = {
     "Area": "area",
@@ -124,6 +127,8 @@ _MODULE_OF_NAME = {
     "make_report": "report",
     "make_rooms_area": "generators",
     "make_warehouse_area": "generators",
+    "make_widget": "viewer.widget",
+    "open_viewer": "viewer.launch",
     "picture_of_area": "picture",
     "picture_of_d_scheme": "picture",
     "picture_of_generation": "picture",
@@ -137,6 +142,7 @@ _MODULE_OF_NAME = {
     "slot_bound": "bounds",
     "write_animation": "movie",
     "write_area": "formats",
+    "write_page": "viewer.page",
     "write_plan": "formats",
     "write_report": "formats.report_json",
     "write_scenario": "formats",

@@ -15,6 +15,7 @@ COMMANDS = {
     "compare": "Compare planners: total time, gap, steps, seconds.",
     "check": "Tell whether a plan is safe.",
     "animate": "Draw the robots of a plan on their way.",
+    "view": "Open the viewer: paint, plan, play and compare in a browser.",
     "show": "Tell what an area is like.",
     "generate": "Make an area: random, rooms, maze, caves or warehouse.",
     "convert": "Write a plan, an area or a scenario in another format.",

@@ -95,6 +95,11 @@ class Desk:
             return _drafted(draft_of(record))
         return _drafted(_drawn(Draft(record) if isinstance(record, Area) else record))
 
+    @property
+    def last_plan(self) -> Plan | None:
+        """The last plan that was made or shown."""
+        return next(reversed(self._reports.values())).plan if self._reports else None
+
     def _files(self, request: ask.ListFiles, call: _Call) -> Bundle:
         names = self.folder.names() if self.folder else []
         return Bundle({"files": names, "folder": str(self.folder.root) if self.folder else None}, {})

@@ -51,7 +51,7 @@ class DocumentHeader(_Strict):
     crossing: str = "forbid"
     corners: str = "allow"
     destination_capacity: Annotated[int, Field(ge=1, le=2**30)] | None = None
-    seed: _Whole | None = None
+    seed: Annotated[int, Field(ge=0, lt=2**53)] | None = None  # JavaScript has no larger whole numbers
 
 
 def document_of(draft: Draft) -> Bundle:

@@ -193,6 +193,7 @@ export class Playback {
   seek(step) {
     step = Math.max(0, Math.min(step, this.steps));
     if (step === this.step) return;
+    const isNext = this.step + 1 === step;
     if (step < this.step || step - this.step > this.every) {
       const near = Math.min(Math.floor(step / this.every), this.kept.length - 1);
       if (step < this.step || near * this.every > this.step) {
@@ -201,7 +202,6 @@ export class Playback {
         this.#advance(this.site, this.step, this.next);
       }
     }
-    const isNext = this.step + 1 === step;
     while (this.step < step) {
       [this.site, this.next] = [this.next, this.site];
       this.step++;

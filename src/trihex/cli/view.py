@@ -1,0 +1,51 @@
+"""`trihex view`: the viewer in a browser."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from trihex.cli.options import PATH, area_options, read_described, read_judged, robot_options, rule_options, wrong_use
+from trihex.cli.types import Whole
+
+
+@click.command("view")
+@click.argument("file", type=PATH, required=False)
+@click.argument("area", type=PATH, required=False)
+@area_options
+@rule_options
+@robot_options
+@click.option("--port", type=Whole(0), default=0, help="Port of the server. [default: a free one]")
+@click.option("--no-browser", is_flag=True, help="Only tell the address.")
+def command(file: Path | None, area: Path | None, port: int, no_browser: bool, **options: Any) -> None:
+    """Open the viewer: paint, plan, play and compare in a browser.
+
+    FILE is an area, a scenario or a plan; a plan as .csv or .parquet needs AREA as well. Without FILE there are some
+    rooms to play with. Files are opened and saved in the folder in which the command was started, and below it.
+
+    The server listens on this machine only, and answers only those who know the address that is told here.
+    """
+    from trihex.formats.files import read_bytes
+    from trihex.formats.recognise import format_of
+    from trihex.viewer.launch import open_viewer
+
+    if file is None and any(value not in (None, ()) for value in options.values()):
+        raise wrong_use("options tell how FILE is read: name a FILE")
+    if port > 65535:
+        raise wrong_use(f"--port must be at most 65535, not {port}")
+    record: Any = None
+    if file is not None:
+        is_plan = format_of(read_bytes(file), file) in ("npz", "plan", "parquet")
+        if area is not None and not is_plan:
+            raise wrong_use(f"AREA belongs to a plan; {file} is none")
+        record = read_judged(file, area, options) if is_plan else read_described(file, options)
+    try:
+        open_viewer(record, port=port, browser=not no_browser, tell=_tell)
+    except KeyboardInterrupt:
+        click.echo("stopped")
+
+
+def _tell(address: str) -> None:
+    click.echo(f"The viewer is at {address}\nCtrl-C stops it.")

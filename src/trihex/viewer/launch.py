@@ -1,0 +1,54 @@
+"""Launch: the viewer on this machine, in the browser of its user."""
+
+from __future__ import annotations
+
+import os
+import webbrowser
+from collections.abc import Callable
+
+from trihex.area import Area
+from trihex.formats.draft import Draft
+from trihex.plan import Plan
+from trihex.scenario import Scenario
+from trihex.viewer.desk import Desk
+from trihex.viewer.folder import Folder
+from trihex.viewer.server import make_viewing
+
+
+def open_viewer(
+    record: Area | Scenario | Plan | Draft | None = None,
+    *,
+    folder: str | os.PathLike[str] = ".",
+    port: int = 0,
+    browser: bool = True,
+    tell: Callable[[str], None] = lambda address: None,
+) -> None:
+    """Serve the viewer on the loopback address until it is interrupted.
+
+    Parameters
+    ----------
+    record : Area, Scenario or Plan, optional
+        What is shown at first. Default: an area of rooms to play with.
+    folder : path
+        Files are opened and saved below this folder only.
+    port : int
+        0 takes a free one.
+    browser : bool
+        Whether to open it in the browser of the user.
+    tell : callable
+        Called with the address once it can be opened; whoever knows it can use the viewer.
+
+    Raises
+    ------
+    MissingExtraError
+        If the extra ``view`` is not installed.
+    OSError
+        If there is no such folder, or the port is taken.
+    """
+    desk = Desk(Folder(folder))
+    viewing = make_viewing(desk, None if record is None else desk.show(record), port=port)
+    tell(viewing.address)
+    if browser:
+        # It listens already: a browser that is faster than the server waits for it.
+        webbrowser.open(viewing.address)
+    viewing.run()
