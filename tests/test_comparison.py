@@ -79,3 +79,10 @@ def test_registered_planners_on_all_tessellations_with_progress():
 def test_an_unknown_planner_is_refused():
     with pytest.raises(th.PlanError, match="planner must be one of"):
         th.make_comparison([SCENARIO], ["greedier"])
+
+
+def test_other_tessellations_keep_costs_and_neighbourhood():
+    shape = th.Tessellation("square", "edge", "euclidean")
+    scenario = th.Scenario(th.Area(shape, [[0, 0, 1], [0, 0, 0]]), [(0, 0)], [(2, 1)])
+    (turned,) = on_tessellations(scenario, ["triangular"])
+    assert turned.area.tessellation == th.Tessellation("triangular", "edge", "euclidean")

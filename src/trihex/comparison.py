@@ -139,8 +139,10 @@ def make_comparison(
 
 
 def on_tessellations(scenario: Scenario, names: Iterable[str]) -> list[Scenario]:
-    """Return `scenario` with its cells, barriers, robots and rules on each of the tessellations named."""
-    return [replace(scenario, area=scenario.area.with_tessellation(name)) for name in names]
+    """Return `scenario` with its cells, barriers, robots, costs and rules on each of the tessellations named."""
+    area = scenario.area
+    shapes = [replace(area.tessellation, name=name) for name in names]
+    return [replace(scenario, area=area.with_tessellation(shape)) for shape in shapes]
 
 
 def _entries(

@@ -63,15 +63,13 @@ def command(
 
 def _shaped(scenario: Any, names: tuple[str, ...] | None) -> list[Any]:
     """Return the scenario on each of the tessellations; by default on all that fit its area."""
-    from dataclasses import replace
-
+    from trihex.comparison import on_tessellations
     from trihex.tessellation import TESSELLATIONS
 
-    area = scenario.area
     if names is None:  # cells of an area in metres cannot take another shape
+        area = scenario.area
         names = TESSELLATIONS if area.frame is None else (area.tessellation.name,)
-    shapes = [replace(area.tessellation, name=name) for name in names]
-    return [replace(scenario, area=area.with_tessellation(shape)) for shape in shapes]
+    return on_tessellations(scenario, names)
 
 
 def _draw(rows: list[dict[str, Any]], path: Path) -> None:
