@@ -87,21 +87,25 @@ def make_settle(slots, is_masked):
     def settle(state, lists, table, direction, cost, moves, distance, budget):
         length = np.uint64(len(lists) // 3)
         room = length - np.uint64(columns)
-        state[REASON] = GO_ON
-        while state[REASON] == GO_ON and budget > 0:
-            start = np.uint64(state[LIST]) * length
-            near_start = np.uint64((state[LIST] + 1) % 3) * length
-            far_start = np.uint64((state[LIST] + 2) % 3) * length
-            at = start + np.uint64(state[AT])
-            stop = start + np.uint64(min(state[COUNT], state[AT] + budget))
-            tail = near_start + np.uint64(state[COUNT + 1])
-            far_tail = far_start + np.uint64(state[COUNT + 2])
-            next_end = state[BUCKET_END] + cost[0]
-            bits = np.uint64(0)
+        here = np.uint64(state[LIST]) * length
+        near = np.uint64((state[LIST] + 1) % 3) * length
+        far = np.uint64((state[LIST] + 2) % 3) * length
+        at = here + np.uint64(state[AT])
+        end = here + np.uint64(state[COUNT])
+        tail = near + np.uint64(state[COUNT + 1])
+        far_tail = far + np.uint64(state[COUNT + 2])
+        bucket_end = state[BUCKET_END]
+        left = np.uint64(budget)
+        bits = np.uint64(0)
+        reason = GO_ON
+        while reason == GO_ON and left > 0:
+            longest = max(tail - near, far_tail - far)
+            fit = (room - longest) // np.uint64(columns) if longest < room else np.uint64(0)
+            count = min(end - at, fit, left)
+            left -= count
+            stop = at + count
+            far_from = bucket_end + cost[0]
             while at < stop:
-                if tail - near_start > room or far_tail - far_start > room:
-                    state[REASON] = LISTS_FULL
-                    break
                 entry = lists[at]
                 at += np.uint64(1)
                 site = entry & np.uint64(2**32 - 1)
@@ -113,40 +117,35 @@ def make_settle(slots, is_masked):
                 tail = _try_moves(entry, 0, end0, value, table, direction, bits, is_masked, distance, lists, tail)
                 if groups > 1:
                     value = np.int32(base + cost[1])
-                    is_far = value >= next_end
-                    end = far_tail if is_far else tail
-                    end = _try_moves(entry, end0, end1, value, table, direction, bits, is_masked, distance, lists, end)
-                    tail, far_tail = tail if is_far else end, end if is_far else far_tail
+                    is_far = value >= far_from
+                    t = far_tail if is_far else tail
+                    t = _try_moves(entry, end0, end1, value, table, direction, bits, is_masked, distance, lists, t)
+                    tail, far_tail = tail if is_far else t, t if is_far else far_tail
                 if groups > 2:
                     value = np.int32(base + cost[2])
-                    is_far = value >= next_end
-                    end = far_tail if is_far else tail
-                    end = _try_moves(
-                        entry, end1, columns, value, table, direction, bits, is_masked, distance, lists, end
-                    )
-                    tail, far_tail = tail if is_far else end, end if is_far else far_tail
-            budget -= np.int64(at - start) - state[AT]
-            state[AT] = at - start
-            state[COUNT + 1] = tail - near_start
-            state[COUNT + 2] = far_tail - far_start
-            if state[AT] == state[COUNT]:
-                _take_next_list(state, cost[0])
+                    is_far = value >= far_from
+                    t = far_tail if is_far else tail
+                    t = _try_moves(entry, end1, columns, value, table, direction, bits, is_masked, distance, lists, t)
+                    tail, far_tail = tail if is_far else t, t if is_far else far_tail
+            if at == end:
+                here, near, far = near, far, here
+                at, end, tail, far_tail = here, tail, far_tail, far
+                bucket_end += cost[0]
+                if end == here and tail == near:
+                    reason = DONE
+                elif bucket_end > FARTHEST:
+                    reason = TOO_FAR
+            elif fit == 0:
+                reason = LISTS_FULL
+        state[LIST] = here // length
+        state[AT] = at - here
+        state[COUNT] = end - here
+        state[COUNT + 1] = tail - near
+        state[COUNT + 2] = far_tail - far
+        state[BUCKET_END] = bucket_end
+        state[REASON] = reason
 
     return settle
-
-
-@njit(nogil=True)
-def _take_next_list(state, width):
-    state[LIST] = (state[LIST] + 1) % 3
-    state[AT] = 0
-    state[COUNT] = state[COUNT + 1]
-    state[COUNT + 1] = state[COUNT + 2]
-    state[COUNT + 2] = 0
-    state[BUCKET_END] += width
-    if state[COUNT] == 0 and state[COUNT + 1] == 0:
-        state[REASON] = DONE
-    elif state[BUCKET_END] > FARTHEST:
-        state[REASON] = TOO_FAR
 
 
 @njit(
