@@ -76,7 +76,7 @@ class CommandHelp(SphinxDirective):
 
     def run(self):
         """Return a title and a block for each command."""
-        top = click.Context(command_line, info_name="trihex", max_content_width=100, terminal_width=100)
+        top = click.Context(command_line, info_name="trihex", max_content_width=84, terminal_width=84)
         found = []
         for name in command_line.list_commands(top):
             command = command_line.get_command(top, name)
@@ -97,8 +97,23 @@ def _directive_of(path, value):
     return [f".. data:: {path}", "", f"   A mapping from names to the functions above: {', '.join(value)}."]
 
 
+def keep_colons(app, what, name, value, options, lines):
+    """Let a colon in the first line of a property be a colon: napoleon takes what stands before it for a type."""
+    if what in ("property", "attribute"):
+        lines[:0] = [".. (a comment)", ""]
+
+
+def colour_examples(app, doctree):
+    """Colour examples (>>>) in indented blocks, whose language Markdown does not tell."""
+    for block in doctree.findall(nodes.literal_block):
+        if block.astext().startswith(">>> "):
+            block["language"] = "pycon"
+
+
 def setup(app):
     """Make the directives known to sphinx."""
+    app.connect("autodoc-process-docstring", keep_colons, priority=400)
+    app.connect("doctree-read", colour_examples)
     app.add_directive("public-names", PublicNames)
     app.add_directive("planners", Planners)
     app.add_directive("command-help", CommandHelp)
