@@ -50,6 +50,34 @@ class NScheme(Record):
         return np.asarray(self.distance_of_site[sites])
 
     @cached_property
+    def generations(self) -> int:
+        """Number of generations of the synchronous automaton that change something, the last of them to this scheme.
+
+        It is the largest number of moves that a cell needs at the least to attain its distance. Found when first
+        asked for, in time O(b); the fast kernel does not work in generations.
+        """
+        from trihex.kernels import fields_generations as kernels
+
+        layout, tessellation = self.scenario.area.layout, self.scenario.area.tessellation
+        queue = np.empty(self.scenario.area.free_count, dtype=np.int32)
+        state = np.zeros(kernels.STATE_SIZE, dtype=np.int64)
+        state[kernels.TAIL] = state[kernels.GENERATION_END] = self.scenario.destinations.size
+        queue[: state[kernels.TAIL]] = layout.cell_to_site(self.scenario.destinations)
+        is_seen = self.distance_of_site == 0
+        while state[kernels.AT] < state[kernels.TAIL]:
+            kernels.count_generations(
+                self.distance_of_site,
+                self.scenario.moves,
+                layout.offset_of_direction,
+                tessellation.cost_of_direction,
+                is_seen,
+                queue,
+                state,
+                _BUDGET,
+            )
+        return int(state[kernels.GENERATION])
+
+    @cached_property
     def unreachable_robots(self) -> NDArray[np.int64]:
         """Robots, ascending by number, that cannot arrive at any destination."""
         return read_only(np.flatnonzero(self.distance_of_cell(self.scenario.robots) == NOT_REACHED).astype(np.int64))
