@@ -1,6 +1,7 @@
 """Documentation: every block of code runs, examples run, links lead somewhere, pictures are those of their scripts."""
 
 import doctest
+import json
 import re
 import runpy
 import sys
@@ -25,7 +26,8 @@ SCRIPTS = sorted(
 )
 # Commands that go on until they are stopped, or take long; their words are checked all the same.
 NOT_RUN = {"view", "demo", "study"}
-# What fenced blocks may be. Words and pictures are for sphinx, everything else is run or read here.
+# Fenced blocks of these are words and pictures; everything else is run or read here: `console` in any case, indented
+# commands and those in `sh` where their files are there.
 FOR_SPHINX = ("{", "text")
 
 
@@ -120,9 +122,11 @@ def test_every_block_of_a_page_runs(path, tmp_path, monkeypatch):
             names = test.globs
         elif block.kind == "python":
             exec(compile(text, where, "exec"), names)
-        elif block.kind == "console":
+        elif block.kind in ("console", "sh", "bash"):
             for words in commands_of(block):
-                run_command(words, tmp_path, must_run=bool(block.language))
+                run_command(words, tmp_path, must_run=block.language == "console")
+        elif block.kind == "json":
+            json.loads(text)
         elif block.kind == "toml":
             file = tomllib.loads(text)
             if (tmp_path / file.get("area", {}).get("path", "-")).is_file():
