@@ -528,15 +528,15 @@ export class Pane {
       c.fillStyle = c.strokeStyle = isLight(shade) ? "#202124" : "#ffffff";
       const [cx, cy] = this.pointOf(cell);
       if (hasArrows) this.#drawArrows(cell, x, y, cx, cy);
-      if (hasNumbers && values[cell] > 0) c.fillText(String(values[cell]), cx, cy + (hasArrows ? view.scale * 0.2 : 0));
+      if (hasNumbers && values[cell] > 0) c.fillText(String(values[cell]), cx, cy + (hasArrows ? view.scale * 0.25 : 0));
     }
   }
 
   #drawArrows(cell, x, y, cx, cy) {
     const { doc, view, directions, paperContext: c, options } = this;
     const orientation = shapeOf(doc).orientation(x, y), steps = options.steps[orientation];
-    const up = options.numbers && view.scale >= NUMBERS_FROM ? -view.scale * 0.16 : 0;
-    const length = view.scale * (up ? 0.23 : 0.34), head = Math.max(2.5, length * 0.34);
+    const up = options.numbers && view.scale >= NUMBERS_FROM ? -view.scale * 0.2 : 0;
+    const length = view.scale * (up ? 0.2 : 0.34), head = Math.max(2.5, length * 0.34);
     c.lineWidth = Math.max(1, view.scale / 22);
     for (let k = 0; k < steps.length; k++) {
       if (!((directions[cell] >> k) & 1)) continue;
@@ -895,7 +895,7 @@ export class App {
     this.brush = h("input", { type: "range", min: 1, max: 9, step: 2, value: 1, "aria-label": "Width of the brush in cells", title: "Width of the brush" });
     const tools = h("div", { class: "tools", role: "toolbar", "aria-label": "Tools" }, Object.values(this.toolButtons), h("label", { class: "brush" }, h("span", {}, "Brush"), this.brush));
 
-    this.canvases = [0, 1].map((i) => h("canvas", { tabindex: "0", role: "application", "aria-describedby": "trihex-readout", "data-pane": i }));
+    this.canvases = [0, 1].map((i) => h("canvas", { tabindex: "0", role: "application", "aria-describedby": "trihex-readout", "aria-label": "Picture", "data-pane": i }));
     this.captions = [0, 1].map(() => h("div", { class: "caption" }));
     this.paneElements = [0, 1].map((i) => h("div", { class: "pane" }, this.canvases[i], this.captions[i]));
     this.paneElements[1].hidden = true;
@@ -954,7 +954,7 @@ export class App {
     this.generationText = h("output", { class: "note" });
     this.generation = h("input", { type: "range", min: 0, max: 0, value: 0, "aria-label": "Generation", oninput: () => this.setGeneration(Number(this.generation.value)) });
     this.growButton = button("Grow the field", () => this.grow());
-    parts.push(section("Distance field", can, h("div", { class: "row" }, toggle("showField", "Colours", false), can ? toggle("showArrows", "Arrows", false) : null, toggle("showNumbers", "Numbers", false)),
+    parts.push(section("Distance field", true, h("div", { class: "row" }, toggle("showField", "Colours", false), can ? toggle("showArrows", "Arrows", false) : null, toggle("showNumbers", "Numbers", false)),
       can ? [h("div", { class: "row" }, this.growButton, button("‹", () => this.setGeneration(this.growth ? this.growth.generation - 1 : 0), { "aria-label": "Previous generation" }),
         button("›", () => this.nextGeneration(), { "aria-label": "Next generation" }), this.generation), this.generationText,
       h("p", { class: "note" }, "Arrows and numbers appear when cells are large: zoom in.")] : null));
@@ -1084,8 +1084,8 @@ export class App {
   retile(changes) {
     const header = { ...this.doc.header, ...changes };
     if (header.frame && (changes.tessellation || changes.neighbourhood)) {
-      this.say("This area lies in the world in metres: open its file again with other cells.", true);
-      return this.refresh();
+      this.refresh();
+      return this.say("This area lies in the world in metres: open its file again with other cells.", true);
     }
     // A cost of waiting in the old unit would mean something else.
     if (changes.costs) header.waiting_cost = null;
@@ -1192,6 +1192,7 @@ export class App {
     const run = { ...answer.header, playback: new Playback(answer, place), doc: place };
     this.past.push({ doc, runs: this.runs });
     this.future = [];
+    this.endGrowth();
     if (!which) this.clock = 0;
     this.set(doc, which ? [this.runs[0], run] : [run, this.runs[1]]);
     this.seek(0);
@@ -1249,7 +1250,7 @@ export class App {
     this.growth = { doc, values, cells: [], changes: [], ends: [0], generation: 0, isComplete: false, isPlaying: true, at: 0 };
     this.refresh();
     this.onPart = ({ arrays }) => this.addGenerations(arrays);
-    const answer = await this.ask({ op: "generations", ...this.request }, arraysOf(doc));
+    const answer = await this.ask({ op: "generations", ...this.request }, arraysOf(doc), "Growing…");
     this.onPart = null;
     if (!answer) return this.endGrowth();
     if (this.growth?.doc !== doc) return;
@@ -1331,7 +1332,8 @@ export class App {
       this.compareButton.disabled = this.planButton.disabled = false;
       if (!this.runs[0] && !this.status.classList.contains("warning")) this.say(this.missing() || "Press Plan to find paths for all robots.");
       else if (!this.runs[0] && !this.missing()) this.say("Press Plan to find paths for all robots.");
-    } else if (this.runs[0]) this.say("Press Play.");
+    }
+    if (this.runs[0] && !this.status.textContent) this.say("Press Play.");
     this.refreshPanes();
     this.showResults();
     this.followRobot(this.follow);
@@ -1797,9 +1799,10 @@ export class App {
     const doc = this.stroked(stroke);
     const isSame = ["barriers", "robots", "destinations"].every((name) => doc[name] === this.doc[name] || (doc[name].length === this.doc[name].length && doc[name].every((value, k) => value === this.doc[name][k])));
     if (isSame) {
+      this.refresh();
       const [cell] = stroke.touched;
       if (cell !== undefined && this.doc.barriers[cell] && stroke.kind !== "wall") this.say(`Cell (${cell % this.doc.width}, ${Math.floor(cell / this.doc.width)}) is a barrier: erase it first.`, true);
-      return this.refresh();
+      return;
     }
     this.say("");
     this.clock = 0;

@@ -1,0 +1,78 @@
+"""A plan as one HTML file that plays without a network."""
+
+import re
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+import trihex as th
+from tests.viewer.pages import Shown, is_near
+from trihex import palette
+from trihex.cli import main
+from trihex.planners import make_plan
+
+NAME = "</script><script>document.title='evil'</script>"
+
+
+@pytest.fixture
+def plan():
+    area = th.make_rooms_area("hexagonal", 14, 20, room=4, seed=3)
+    area = th.Area("hexagonal", area.barriers, NAME)
+    corner = np.flatnonzero(~area.barriers)[-1:]
+    return make_plan(th.Scenario(area, corner, th.random_robots(area, 30, 1, avoid=corner)), "greedy")
+
+
+def test_it_plays_offline_and_asks_nobody(browser, tmp_path, plan):
+    th.write_page(plan, tmp_path / "plan.html")
+    context = browser.new_context(offline=True, viewport={"width": 1100, "height": 700})
+    page = context.new_page()
+    asked = []
+    page.on("request", lambda request: asked.append(request.url))
+    shown = Shown(page)
+    page.goto((tmp_path / "plan.html").as_uri())
+    shown.wait("app.doc")
+    assert page.title().startswith("greedy on </script>") and shown.faults == []
+    assert shown.text(".status") == "Press Play."
+    report = th.make_report(plan)
+    table = shown.table()
+    assert table["Total time"] == [f"{plan.total_time:,}".replace(",", " ")]
+    assert table["Lower bound"][0].startswith(f"{report.lower_bound:,}".replace(",", " "))
+    for button in ("Plan", "Save…", "Wall", "Scatter"):
+        assert not page.get_by_role("button", name=button, exact=True).is_visible()
+    page.get_by_label("Colours").check()
+    cells = list(plan.cells_by_step())
+    page.locator(".scrub").fill("6")
+    shown.wait("app.runs[0].playback.step === 6")
+    colours = shown.colours(shift=(0, -0.2))
+    seen = sum(is_near(colours, colour).ravel() for colour in (palette.MOVING, palette.WAITING, palette.FINAL)) > 0
+    np.testing.assert_array_equal(np.flatnonzero(seen), np.unique(cells[6][cells[6] >= 0]))
+    shown.artefacts = None
+    page.get_by_label("Steps per second").fill("13")
+    shown.press("Play")
+    shown.wait("app.clock === app.steps && !app.isPlaying")
+    assert "30 arrived" in shown.text(".sets")
+    assert [url for url in asked if not url.startswith(("file:", "data:"))] == []
+    assert len([url for url in asked if url.startswith("file:")]) == 1
+    context.close()
+
+
+def test_the_file_obeys_a_policy_and_holds_no_foreign_address(tmp_path, plan):
+    th.write_page(plan, tmp_path / "plan.html")
+    text = (tmp_path / "plan.html").read_text()
+    policy = re.search(r'Content-Security-Policy" content="([^"]*)"', text)[1]
+    assert "default-src 'none'" in policy and "connect-src 'none'" in policy and "unsafe" not in policy
+    assert set(re.findall(r"https?://[\w./]*", text)) == {"http://www.w3.org/2000/svg"}  # a name, never fetched
+    assert text.count("</script>") == 3 and NAME not in text
+    th.write_page(plan, tmp_path / "again.html")
+    assert (tmp_path / "again.html").read_text() == text
+
+
+def test_the_command_writes_it(tmp_path, plan):
+    th.write_plan(plan, tmp_path / "plan.npz")
+    done = CliRunner().invoke(main, ["animate", str(tmp_path / "plan.npz"), "--out", str(tmp_path / "plan.html")])
+    assert done.exit_code == 0, done.output
+    th.write_page(plan, tmp_path / "same.html")
+    assert (tmp_path / "plan.html").read_bytes() == (tmp_path / "same.html").read_bytes()
+    with pytest.raises(th.FormatError, match="suffix of a page"):
+        th.write_page(plan, tmp_path / "plan.pdf")
