@@ -23,10 +23,12 @@ from trihex.scenario import Scenario
 from trihex.schemes import NOT_REACHED, NScheme
 
 _BUDGET = 2_000_000
-# What the cut bound may cost: sites visited by all searches, slots in memory (some 50 bytes each), looks at slots.
+# What the cut bound may cost: ways into the destinations times nodes, sites visited by all searches, slots in memory
+# (some 50 bytes each), looks at slots. Together some seconds at worst, a fraction of what a plan of that size costs.
+_MOST_SENT = 100_000_000
 _MOST_VISITS = 30_000_000
 _MOST_SLOTS = 5_000_000
-_MOST_LOOKS = 200_000_000
+_MOST_LOOKS = 50_000_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,7 +108,9 @@ def cut_bound(
 def _steps_past_gates(crowd: Crowd, most_gates: int, progress: Callable[[int, int], None] | None) -> int:
     """Return how many steps all robots of a crowd need at least in all."""
     free_cells, entries = crowd.scenario.area.free_count, entries_per_step(crowd.scenario)
-    cuts = find_cuts(crowd, most_searches=_MOST_VISITS // (4 * free_cells) + 1)
+    cuts = []
+    if entries * crowd.node_count <= _MOST_SENT:
+        cuts = find_cuts(crowd, most_searches=_MOST_VISITS // (4 * free_cells) + 1)
     queued = _steps_past_cuts(crowd, cuts, entries)
     gates = _choose_gates(crowd, cuts, min(most_gates, _MOST_VISITS // free_cells))
     horizon = int(queued.max(initial=0)) * 5 // 4 + 100
@@ -147,7 +151,8 @@ def _choose_gates(crowd: Crowd, cuts: list[Cut], most: int) -> NDArray[np.int32]
         more = np.union1d(gates, cut.nodes)
         if more.size <= most:
             gates = more
-    return np.union1d(gates, find_crowded_nodes(crowd, most)[: min(most - gates.size, most // 2)])
+    more_gates = min(most - gates.size, most // 2)
+    return np.union1d(gates, find_crowded_nodes(crowd, more_gates)) if more_gates > 3 else gates
 
 
 def entries_per_step(scenario: Scenario) -> int:
