@@ -53,6 +53,11 @@ def test_a_proven_plan_is_its_own_bound():
     assert (report.optimal, report.lower_bound, report.lower_bound_name, report.gap) == (True, 50, "optimum", 0)
 
 
+def test_a_plan_that_attains_the_bound_is_proven_too():
+    report = th.make_report(plan_from_lists(SCENARIO, [[E, E, E], [E, E], [], []]))
+    assert (report.optimal, report.lower_bound_name, report.gap) == (True, "optimum", 0)
+
+
 @pytest.mark.parametrize("actions", [[[E, E, E], [], [], []], [[E, E, E], [E, E], [E], []]])
 def test_nothing_is_proven_by_a_plan_that_is_incomplete_or_unsafe(actions):
     report = th.make_report(plan_from_lists(SCENARIO, actions, optimal=True))

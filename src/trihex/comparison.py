@@ -53,10 +53,7 @@ class Comparison(Record):
         """Return the best lower bound; its name is "optimum" if some plan attains it, proven by a planner or not."""
         reports = [entry.report for entry in self.entries if entry.report and entry.scenario is scenario]
         best = max(reports, key=lambda report: (report.lower_bound, report.optimal))
-        is_attained = any(
-            report.is_complete and report.audit.is_clean and report.total_time == best.lower_bound for report in reports
-        )
-        return LowerBound("optimum" if is_attained else best.lower_bound_name, best.lower_bound)
+        return LowerBound(best.lower_bound_name, best.lower_bound)
 
     def rows(self) -> list[dict[str, Any]]:
         """Return one flat row of plain values for each entry.

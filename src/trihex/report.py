@@ -79,8 +79,9 @@ class Report(Record):
 
     @property
     def optimal(self) -> bool:
-        """Whether it is proven that no plan takes less total time."""
-        return self.plan.optimal and self.is_complete and self.audit.is_clean
+        """Whether it is proven that no plan takes less total time: by the planner, or because the bound is attained."""
+        is_proven = self.plan.optimal or self.total_time <= self.bound.value
+        return is_proven and self.is_complete and self.audit.is_clean
 
     @property
     def lower_bound(self) -> int:
