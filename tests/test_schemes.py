@@ -126,6 +126,25 @@ def test_a_scheme_for_the_robots_only_stops_when_it_knows_their_distances():
     assert np.array_equal(th.make_d_scheme(some).directions, np.where(is_known, directions, 0))
 
 
+@pytest.mark.parametrize(("tessellation", "corners"), RULES, ids=lambda rule: getattr(rule, "name", rule))
+def test_kernels_may_stop_and_go_on_anywhere(tessellation, corners, monkeypatch):
+    rng = np.random.default_rng(7)
+    for budget in (1, 2, 5, 30):
+        barriers = rng.random((25, 25)) < 0.3
+        barriers[12, 12] = False
+        scenario = th.Scenario(th.Area(tessellation, barriers), [(12, 12)], corners=corners)
+        robots = th.random_robots(scenario.area, 2, seed=budget)
+        whole = th.make_n_scheme(scenario)
+        monkeypatch.setattr("trihex.schemes._BUDGET", budget)
+        assert th.make_n_scheme(scenario) == whole
+        assert th.make_n_scheme(scenario).generations == whole.generations
+        some = th.make_n_scheme(scenario.with_robots(robots), robots_only=True)
+        monkeypatch.undo()
+        assert np.array_equal(some.distance_of_cell(robots), whole.distance_of_cell(robots))
+        want = np.where(whole.distance < some.horizon, whole.distance, NOT_REACHED)
+        assert np.array_equal(some.distance, want)
+
+
 def test_a_scheme_for_the_robots_only_is_whole_if_one_cannot_arrive():
     barriers = np.zeros((20, 20), bool)
     barriers[:, 10] = True
