@@ -1042,7 +1042,11 @@ export class App {
     if (header.planner && this.planner && this.settings.planners[header.planner]) this.planner.lastChild.value = header.planner;
     if (isEdit) this.edit(doc, [run, null]);
     else this.set(doc, [run, null]);
-    if (run) this.bound();
+    if (run) {
+      this.choose("move");
+      this.say("Press Play.");
+      this.bound();
+    }
   }
 
   edit(doc, runs = [null, null]) {
