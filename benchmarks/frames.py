@@ -32,10 +32,16 @@ FRAMES = """() => new Promise((done) => {
   };
   requestAnimationFrame(frame);
 })"""
+# The least of 50: what it costs where nobody else wants the processor.
 DRAW = """() => {
-  const { panes: [pane], runs: [{ playback }] } = document.querySelector("#trihex").app, begin = performance.now();
-  for (let i = 0; i < 50; i++) { playback.seek(playback.step + 1); pane.draw(0.5); }
-  return (performance.now() - begin) / 50;
+  const { panes: [pane], runs: [{ playback }] } = document.querySelector("#trihex").app, times = [];
+  for (let i = 0; i < 50; i++) {
+    const begin = performance.now();
+    playback.seek(playback.step + 1);
+    pane.draw(0.5);
+    times.push(performance.now() - begin);
+  }
+  return Math.min(...times);
 }"""
 CLICK = """(name) => new Promise((done) => {
   const app = document.querySelector("#trihex").app;

@@ -607,13 +607,23 @@ export class Pane {
     if (radius < 2) {
       const side = radius < 1.3 ? 2 : 3, flat = colours.map((colour) => (colour ? packed(colour) : 0));
       const { scale } = view, shiftX = view.left - side / 2 + 0.5, shiftY = view.top - side / 2 + 0.5;
-      const right = width - side, bottom = height - side, { count } = robots;
-      for (let r = 0; r < count; r++) {
-        const s = state[r];
-        if (s === HIDDEN) continue;
+      const right = width - side - 1, bottom = height - side - 1, { count } = robots;
+      const place = (r) => {
         const px = (x0[r] + (x1[r] - x0[r]) * fraction) * scale + shiftX, py = (y0[r] + (y1[r] - y0[r]) * fraction) * scale + shiftY;
-        if (px < 0 || py < 0 || px >= right || py >= bottom) continue;
-        const colour = flat[s], p = (py | 0) * width + (px | 0);
+        return px >= 1 && py >= 1 && px < right && py < bottom ? (py | 0) * width + (px | 0) : -1;
+      };
+      if (this.values) { // on the blues of a field the dots need a rim
+        const rim = packed(this.options.dark ? [12, 12, 14] : [255, 255, 255]);
+        for (let r = 0; r < count; r++) {
+          const p = state[r] === HIDDEN ? -1 : place(r) - width;
+          if (p < 0) continue;
+          for (let k = 0; k < side; k++) frame32[p + k] = frame32[p + (side + 1) * width + k] = frame32[p + (k + 1) * width - 1] = frame32[p + (k + 1) * width + side] = rim;
+        }
+      }
+      for (let r = 0; r < count; r++) {
+        const p = state[r] === HIDDEN ? -1 : place(r);
+        if (p < 0) continue;
+        const colour = flat[state[r]];
         frame32[p] = frame32[p + 1] = frame32[p + width] = frame32[p + width + 1] = colour;
         if (side < 3) continue;
         frame32[p + 2] = frame32[p + width + 2] = colour;
@@ -1156,6 +1166,7 @@ export class App {
     const size = wish.height * wish.width;
     this.count.lastChild.value = Math.max(1, Math.min(200, Math.round(size / 25)));
     if (!isFirst) return this.take(answer);
+    this.count.lastChild.value = 60;
     // Something to look at for those who open the viewer without a file.
     this.take(answer, { isEdit: false });
     const free = [...this.doc.barriers.keys()].filter((cell) => !this.doc.barriers[cell]);
@@ -1380,9 +1391,12 @@ export class App {
   farthest(distance) {
     if (!distance) return 1;
     if (this.most?.distance !== distance) {
-      let most = 1;
-      for (let cell = 0; cell < distance.length; cell++) if (distance[cell] !== NOT_REACHED && distance[cell] > most) most = distance[cell];
-      this.most = { distance, most };
+      let most = 1, unreached = -this.doc.barriers.reduce((count, barrier) => count + barrier, 0);
+      for (const value of distance) {
+        if (value === NOT_REACHED) unreached++;
+        else if (value > most) most = value;
+      }
+      this.most = { distance, most, unreached };
     }
     return this.most.most;
   }
@@ -1401,6 +1415,7 @@ export class App {
     if (hasField) {
       const ramp = h("i", { class: "ramp" });
       ramp.style.background = `linear-gradient(to right, ${[0, 64, 128, 192, 255].map((i) => css(palette.distance[i])).join(",")})`;
+      if (this.most?.distance === this.panes[0].values && this.most.unreached > 0) entries.push(entry("unreached", "not reached", "cell"));
       entries.push(h("span", {}, "0 ", ramp, ` ${number(this.panes[0].options.most)} to go`));
     }
     this.legend.replaceChildren(...entries);
