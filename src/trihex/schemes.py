@@ -168,7 +168,7 @@ def make_n_scheme(
     waiting = layout.cell_to_site(scenario.robots)
     settle, done = kernels.make_settle(slots, is_masked), 0
     while state[kernels.REASON] != kernels.DONE:
-        settle(state, lists.reshape(-1), table, direction, cost, moves, distance, _BUDGET)
+        settle(state, lists.reshape(-1), table, direction, cost, moves, distance, layout.pitch, _BUDGET)
         if state[kernels.REASON] == kernels.LISTS_FULL:
             lists = np.concatenate([lists, np.empty_like(lists)], axis=1)
         elif state[kernels.REASON] == kernels.TOO_FAR:

@@ -71,8 +71,8 @@ def _try_moves(entry, first, last, value, table, direction, bits, is_masked, dis
 def make_settle(slots, is_masked):
     """Return the kernel for a front table with these `slots`, compiled for them, so that no loop over moves is left.
 
-    Its arguments: state, lists, table, direction, cost, moves, distance, budget. `lists` is one array, cut into three
-    of equal length. ``cost[g]`` is the cost of the moves of group g. If `is_masked`, a move must be open in
+    Its arguments: state, lists, table, direction, cost, moves, distance, pitch, budget. `lists` is one array, cut into
+    three of equal length. ``cost[g]`` is the cost of the moves of group g. If `is_masked`, a move must be open in
     ``moves[site]``; if not, nothing is read there. It expands up to `budget` entries and tells in ``state[REASON]``
     whether it may `GO_ON`, is `DONE`, needs longer lists, or came too far.
     """
@@ -80,11 +80,11 @@ def make_settle(slots, is_masked):
     end0, end1 = slots[0], sum(slots[:2])
 
     @njit(
-        types.void(OUT_I64, OUT_U64, IN_U64, IN_U64, IN_I32, IN_U16, OUT_I32, types.int64),
+        types.void(OUT_I64, OUT_U64, IN_U64, IN_U64, IN_I32, IN_U16, OUT_I32, types.int64, types.int64),
         cache=True,
         nogil=True,
     )
-    def settle(state, lists, table, direction, cost, moves, distance, budget):
+    def settle(state, lists, table, direction, cost, moves, distance, pitch, budget):
         length = np.uint64(len(lists) // 3)
         room = length - np.uint64(columns)
         here = np.uint64(state[LIST]) * length
@@ -95,6 +95,7 @@ def make_settle(slots, is_masked):
         tail = near + np.uint64(state[COUNT + 1])
         far_tail = far + np.uint64(state[COUNT + 2])
         bucket_end = state[BUCKET_END]
+        three_rows = np.uint64(3 * pitch)
         left = np.uint64(budget)
         bits = np.uint64(0)
         reason = GO_ON
@@ -111,6 +112,8 @@ def make_settle(slots, is_masked):
                 site = entry & np.uint64(2**32 - 1)
                 base = distance[site]
                 prefetch(distance, site + table[(entry >> np.uint64(32)) + np.uint64(columns)])
+                prefetch(distance, site + three_rows)
+                prefetch(distance, site - three_rows)
                 if is_masked:
                     bits = np.uint64(moves[site])
                 value = np.int32(base + cost[0])

@@ -1,12 +1,16 @@
 """Table of a front: the moves worth trying after the move that led to a cell."""
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import NDArray
+
+Step = tuple[int, int]
 
 
 def make_front_table(
     step: NDArray[np.int32], offset: NDArray[np.int32], cost: NDArray[np.int32], edge_count: int, is_free_to_turn: bool
-) -> tuple[NDArray[np.uint64], NDArray[np.uint64], tuple[int, ...], list[list[int]]]:
+) -> tuple[NDArray[np.uint64], NDArray[np.uint64], tuple[int, ...], tuple[list[int], list[int]]]:
     """Return which moves may be the first to reach a cell, given the move that reached the cell before.
 
     A robot that came from p to c and goes on to n might as well have gone from p to n, if n is p or a neighbour of p:
@@ -37,33 +41,48 @@ def make_front_table(
     first : two lists of int
         Starts of rows that between them try all moves from a cell of orientation 0 and 1, to begin with.
     """
-    steps, offsets, costs = step.tolist(), offset.tolist(), cost.tolist()
+    steps = tuple(tuple((dx, dy) for dx, dy in side) for side in step.tolist())
+    parities = tuple(tuple(o & 1 for o in side) for side in offset.tolist())
+    kind, direction, slots, first = _kinds_of_moves(steps, parities, tuple(cost.tolist()), edge_count, is_free_to_turn)
+    columns = kind.shape[1]
+    flat = offset.astype(np.int64).reshape(-1)
+    table = np.where(kind < 0, 0, (kind * columns << 32) + flat[kind])
+    table[:, -1] = 4 * flat[: len(kind)]
+    return table.astype(np.uint64).reshape(-1), direction.reshape(-1), slots, first
+
+
+@lru_cache
+def _kinds_of_moves(
+    steps: tuple[tuple[Step, ...], ...],
+    parities: tuple[tuple[int, ...], ...],
+    costs: tuple[int, ...],
+    edge_count: int,
+    is_free_to_turn: bool,
+) -> tuple[NDArray[np.int64], NDArray[np.uint64], tuple[int, ...], tuple[list[int], list[int]]]:
+    """Return what of the table does not depend on the pitch: moves by the number of their kind, -1 for none."""
     if costs[-1] > 2 * costs[0]:
         raise ValueError("no move may cost more than two others")
     orientations = 1 if steps[0] == steps[1] else 2
     directions = range(len(costs))
     kinds = [(o, k) for o in range(orientations) for k in directions]
-    row_of_kind = {kind: row for row, kind in enumerate(kinds)}
-    target = [(o + offsets[o][k]) % orientations for o, k in kinds]
+    target = [(o + parities[o][k]) % orientations for o, k in kinds]
     after = []
     for (o, k), t in zip(kinds, target, strict=True):
-        near = {(0, 0)} | {tuple(steps[o][j]) for j in directions if is_free_to_turn or j < edge_count}
+        near = {(0, 0), *(steps[o][j] for j in directions if is_free_to_turn or j < edge_count)}
         dx, dy = steps[o][k]
         after.append([j for j in directions if (dx + steps[t][j][0], dy + steps[t][j][1]) not in near])
     groups = [[[j for j in moves if costs[j] == c] for c in sorted(set(costs))] for moves in after]
     slots = tuple(max(map(len, group)) for group in zip(*groups, strict=True))
     columns = sum(slots) + 1
-    table = np.zeros((len(kinds), columns), dtype=np.int64)
+    kind = np.full((len(kinds), columns), -1, dtype=np.int64)
     direction = np.zeros((len(kinds), columns), dtype=np.uint64)
-    for row, (o, k) in enumerate(kinds):
-        t = target[row]
+    for row, t in enumerate(target):
         for g, moves in enumerate(groups[row]):
-            for column, j in enumerate(moves, start=sum(slots[:g])):
-                table[row, column] = (row_of_kind[t, j] * columns << 32) + offsets[t][j]
-                direction[row, column] = j
-        table[row, -1] = 4 * offsets[o][k]
-    first = [[columns * row for row in _cover(after, target, o)] for o in (0, orientations - 1)]
-    return table.astype(np.uint64).reshape(-1), direction.reshape(-1), slots, first
+            start = sum(slots[:g])
+            kind[row, start : start + len(moves)] = [t * len(costs) + j for j in moves]
+            direction[row, start : start + len(moves)] = moves
+    first = tuple([columns * row for row in _cover(after, target, o)] for o in (0, orientations - 1))
+    return kind, direction, slots, (first[0], first[1])
 
 
 def _cover(after: list[list[int]], target: list[int], orientation: int) -> list[int]:

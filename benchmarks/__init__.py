@@ -1,0 +1,1 @@
+"""Benchmarks: how fast trihex is beside other libraries, measured in one process."""
