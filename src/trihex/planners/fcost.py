@@ -1,90 +1,122 @@
-"""Planner `fcost`: robots weigh the open directions by Fcost = v + V + w_t * c, the planner of the paper."""
+"""Planner `fcost`: the paper's planner, which weighs a longer way against waiting."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from trihex.errors import PlanError, check_choice
 from trihex.plan import Plan
+from trihex.planners.greedy import plan_greedy
 from trihex.planners.recording import BUDGET, Recording
 from trihex.schemes import NOT_REACHED, NScheme, make_d_scheme
 
-RULES = ("queue", "paper")
+RULES = ("best", "paper", "queue", "aside")
+Progress = Callable[[int, int], None]
 
 
-def plan_fcost(n_scheme: NScheme, *, progress: Callable[[int, int], None] | None = None, rule: str = "queue") -> Plan:
-    """Plan by least Fcost(x, y, d) = v(d) + V(x, y, d) + w_t * c(x, y, d) (section 4.1 of the paper).
+class Branches(NamedTuple):
+    """The forest of shortest ways: each cell's branch and its slot, which numbers (branch, steps to its end)."""
 
-    v is the cost of the move, V the distance of the cell it leads to, c the estimated number of collisions from there.
+    directions: NDArray[np.uint16]
+    branch_of_site: NDArray[np.int32]
+    slot_of_site: NDArray[np.int32]
+    first_slot: NDArray[np.int64]
+
+
+def plan_fcost(n_scheme: NScheme, *, rule: str = "best", progress: Progress | None = None) -> Plan:
+    """Plan by the least Fcost = v + V + w_t * c (section IV of the paper), step by step.
+
+    In each step the robots are asked in order of their distance. The nearest of each branch of the D-scheme descends;
+    any other takes the free direction of least Fcost, and waits where the best direction, though taken, promises less.
 
     Parameters
     ----------
     n_scheme : NScheme
+    rule : {"best", "paper", "queue", "aside"}
+        What c is. "paper": the number of other robots whose shortest path meets the path that starts with a direction
+        (same cell, same step). "queue": the length of the line that they have formed when the robot gets there, and a
+        robot that would wait may step to a cell no farther away if that costs no more. "aside": the same, and a
+        blocked robot always steps to such a cell unless it has just left it. "best": plans by the latter two and by
+        greedy descent, and keeps the plan of the least total time.
     progress : callable, optional
-        Called with (robots arrived, robots that can arrive).
-    rule : {"queue", "paper"}
-        What c counts. "paper": the other robots whose shortest path meets (same cell, same step) the shortest path
-        that starts with d. "queue": the steps that a robot on that path waits for those before it.
-
-    Raises
-    ------
-    PlanError
-        If there is no such rule.
+        Called with (robots arrived, robots that can arrive), of one rule after the other.
     """
-    from trihex.kernels import planning
-    from trihex.kernels import planning_fcost as kernels
-
     check_choice("rule", rule, RULES, PlanError)
+    branches = _grow(n_scheme)
+    if rule != "best":
+        return _planned(n_scheme, rule, branches, progress)
+    plans = [_planned(n_scheme, one, branches, progress) for one in ("aside", "queue")]
+    best = min([*plans, plan_greedy(n_scheme, progress=progress)], key=lambda plan: plan.total_time)
+    return replace(best, planner="fcost")
+
+
+def _grow(n_scheme: NScheme) -> Branches:
+    from trihex.kernels import fcost as kernels
+
+    layout = n_scheme.scenario.area.layout
+    distance = n_scheme.distance_of_site
+    cells = np.flatnonzero((distance != NOT_REACHED) & (distance != 0)).astype(np.int32)
+    branch, steps = np.zeros(layout.size, dtype=np.int32), np.zeros(layout.size, dtype=np.int32)
+    order = cells[np.argsort(distance[cells], kind="stable")]
+    directions = make_d_scheme(n_scheme).directions_of_site
+    kernels.grow_branches(order, distance, directions, layout.offset_of_direction, branch, steps)
+    last_sites, branch[cells] = np.unique(branch[cells], return_inverse=True)
+    depth = np.zeros(last_sites.size, dtype=np.int64)
+    np.maximum.at(depth, branch[cells], steps[cells])
+    # One slot more than steps at both ends: nobody stands at 0, and a detour may come from beyond the last.
+    first_slot = np.concatenate([[0], np.cumsum(depth + 2)])
+    steps[cells] += first_slot[branch[cells]].astype(np.int32)
+    return Branches(directions, branch, steps, first_slot)
+
+
+def _planned(n_scheme: NScheme, rule: str, branches: Branches, progress: Progress | None) -> Plan:
+    from trihex.kernels import fcost as kernels
+
     scenario = n_scheme.scenario
-    area = scenario.area
-    layout, tessellation = area.layout, area.tessellation
-    destinations = layout.cell_to_site(scenario.destinations)
+    layout, tessellation = scenario.area.layout, scenario.area.tessellation
     site = layout.cell_to_site(scenario.robots)
-    going = np.flatnonzero(~np.isin(n_scheme.distance_of_site[site], (0, NOT_REACHED))).astype(np.int32)
-    info = np.zeros((layout.size, 4), dtype=np.int32)
-    info[:, 0] = n_scheme.distance_of_site
-    slots = kernels.fill_tree(
-        destinations,
-        scenario.moves,
-        make_d_scheme(n_scheme).directions_of_site,
-        planning.FIRST_OF_BITS,
-        layout.offset_of_direction,
-        np.empty(area.free_count, dtype=np.int32),
-        info,
-    )
-    cells = scenario.moves.copy()
-    cells[site[going]] |= planning.OCCUPIED
-    cells[destinations] = planning.DESTINATION
-    many = np.zeros(slots + 1, dtype=np.int64)
-    if rule == "paper":
-        many += np.bincount(info[site[going], 3], minlength=slots + 1)
-    forbids = scenario.crossing == "forbid"
-    capacity = scenario.destination_capacity or 0
+    distance = n_scheme.distance_of_site
+    going = np.flatnonzero((distance[site] != NOT_REACHED) & (distance[site] != 0)).astype(np.int32)
+    forbids, capacity = scenario.crossing == "forbid", scenario.destination_capacity or 0
+    aside = {"paper": kernels.STAY, "queue": kernels.WORTH, "aside": kernels.ALWAYS}[rule]
+    counts = kernels.MEETINGS if rule == "paper" else kernels.QUEUE
+    first_vertex_move = tessellation.edge_count if forbids else tessellation.direction_count
+    rules = [counts, aside, scenario.waiting_cost, scenario.waiting_cost, first_vertex_move, capacity]
+    occupied = np.zeros(layout.size, dtype=np.uint8)
+    occupied[site[going]] = True
+    count = np.bincount(branches.slot_of_site[site[going]], minlength=branches.first_slot[-1])
     recording = Recording(scenario, going.size)
     state = (
-        np.zeros(layout.size if forbids else 0, dtype=np.int32),
-        np.zeros(layout.size if capacity else 0, dtype=np.int64),
-        np.zeros(slots + 1, dtype=np.int32),
-        many,
-        site,
         going.copy(),
         np.empty(going.size, dtype=np.int32),
-        np.zeros(scenario.robot_count, dtype=bool),
+        site,
+        np.full(site.size, -1, dtype=np.int32),
+        occupied,
+        count,
+        np.zeros(count.size, dtype=np.int64),
+        np.zeros(layout.size, dtype=np.int32),
+        np.zeros(layout.size, dtype=np.int32),
+        np.zeros(layout.size, dtype=np.int32),
+        np.zeros(max(branches.first_slot.size - 1, 1), dtype=np.int32),
     )
     step, active = 0, going.size
     while active:
         step, active, steps = kernels.weigh(
-            cells,
+            np.array(rules, dtype=np.int64),
+            distance,
+            branches.slot_of_site,
+            branches.branch_of_site,
+            branches.directions,
+            scenario.moves,
             layout.offset_of_direction,
             layout.vertex_of_direction,
             tessellation.cost_of_direction,
-            info,
-            kernels.PAPER if rule == "paper" else kernels.QUEUE,
-            scenario.waiting_cost,
-            tessellation.edge_count if forbids else tessellation.direction_count,
-            capacity,
+            branches.first_slot,
             step,
             active,
             BUDGET,
