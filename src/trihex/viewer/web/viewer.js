@@ -1607,8 +1607,9 @@ export class App {
 
   growTick(passed) {
     const { growth } = this, last = growth.ends.length - 1;
-    // The whole field in some six seconds.
-    const rate = Math.max(5, this.panes[0].options.most / 60);
+    // The whole field in some four seconds.
+    const edge = growth.doc.header.costs === "euclidean" ? 1000 : 10;
+    const rate = Math.max(8, this.panes[0].options.most / edge / 4);
     growth.at = Math.min(last, growth.at + passed * rate);
     const isEnd = growth.isComplete && growth.at >= last;
     if (Math.floor(growth.at) !== growth.generation || isEnd) {
