@@ -144,7 +144,8 @@ class Area(Record):
         """
         frame = self.metres
         x, y = np.broadcast_arrays(np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64))
-        px, py = frame.metres_to_point(x, y)
+        with np.errstate(over="ignore", invalid="ignore"):  # such points lie outside
+            px, py = frame.metres_to_point(x, y)
         width, height = self.tessellation.extent(self.height, self.width)
         is_inside = (px >= 0) & (py >= 0) & (px <= width) & (py <= height)  # not so for nan
         cell_x, cell_y = self.tessellation.cell_at_point(np.where(is_inside, px, -9), np.where(is_inside, py, -9))

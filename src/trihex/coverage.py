@@ -25,12 +25,14 @@ from trihex.tessellation import Tessellation
 if TYPE_CHECKING:
     from types import ModuleType
 
-# A cell costs 12 (triangular) tests at least, and a byte for as long as the area lives.
-MAX_COVERED = 100_000_000
+# Some 20 s of work each: 2.3 km across at hexagons of half a metre, 1 km for polygons.
+MAX_COVERED = 25_000_000
+MAX_COVERED_BY_POLYGONS = 5_000_000
 # Points at exactly the radius count as touched in spite of rounding; as a share of the cell size.
 _MARGIN = 1e-9
 _PIXELS_AT_ONCE = 20_000_000
 _CELLS_AT_ONCE = 50_000
+_STARS_AT_ONCE = 5_000
 
 Progress = Callable[[int, int], None]
 
@@ -176,7 +178,7 @@ def cover_polygons(
     west, south, east, north = free.bounds
     frame = covering.frame_at((west, north))
     tessellation = covering.tessellation
-    height, width = _size_of(covering, east - west, north - south)
+    height, width = _size_of(covering, east - west, north - south, MAX_COVERED_BY_POLYGONS)
     walls = [free.boundary] if obstacles is None else [free.boundary, obstacles]
     shapely.prepare([free, *walls])
     star, barriers = star_of_cell(tessellation), np.empty(height * width, dtype=bool)
@@ -188,10 +190,11 @@ def cover_polygons(
         blocked = ~shapely.contains_properly(free, centres)
         for wall in walls:
             near = np.flatnonzero(~blocked & shapely.dwithin(wall, centres, reach))
-            arms = star[orientation[near]] + np.stack([px[near], py[near]], axis=-1)[:, None, :]
-            ends = np.stack(frame.point_to_metres(arms[..., 0], arms[..., 1]), axis=-1)
-            stars = _stars_from(shapely.get_coordinates(centres[near]), ends)
-            blocked[near] = shapely.dwithin(wall, stars, radius)
+            for some in np.array_split(near, near.size // _STARS_AT_ONCE + 1):
+                arms = star[orientation[some]] + np.stack([px[some], py[some]], axis=-1)[:, None, :]
+                ends = np.stack(frame.point_to_metres(arms[..., 0], arms[..., 1]), axis=-1)
+                stars = _stars_from(shapely.get_coordinates(centres[some]), ends)
+                blocked[some] = shapely.dwithin(wall, stars, radius)
         barriers[first * width : last * width] = blocked
     return Area(tessellation, barriers.reshape(height, width), name, frame)
 
@@ -218,15 +221,15 @@ def _stars_from(centres: NDArray[np.float64], ends: NDArray[np.float64]) -> NDAr
     )
 
 
-def _size_of(covering: Covering, east: float, south: float) -> tuple[int, int]:
+def _size_of(covering: Covering, east: float, south: float, most: int = MAX_COVERED) -> tuple[int, int]:
     """Return height and width of the area whose cells have their centres in a box of that size in metres."""
     tessellation, step = covering.tessellation, covering.cell_size
     cell_area = float(np.prod(np.subtract(tessellation.extent(3, 3), tessellation.extent(2, 2))))
-    if not east / step * south / step / cell_area < MAX_COVERED:
-        least = np.sqrt(east * south / cell_area / MAX_COVERED)
+    if not east / step * south / step / cell_area < most:
+        least = np.sqrt(east * south / cell_area / most)
         raise TooLargeError(
             f"cell_size must be at least {1.05 * least:.2g} metres for a world of {east:g} by {south:g} metres "
-            f"(at most {MAX_COVERED} cells), not {step:g}"
+            f"(at most {most} cells), not {step:g}"
         )
     # Upper bounds, then those whose centres (of either orientation) lie within.
     x, y = np.arange(int(east / step * 2) + 2), np.arange(int(south / step * 2) + 2)

@@ -63,6 +63,6 @@ def check_choice(parameter: str, value: object, choices: Iterable[str], error: t
         return value
     from difflib import get_close_matches  # 5 ms that only mistakes cost
 
-    near = get_close_matches(str(value).lower(), names, n=1)
+    near = get_close_matches(str(value)[:80].lower(), names, n=1)
     hint = f"; did you mean {near[0]!r}?" if near else ""
-    raise error(f"{parameter} must be one of {', '.join(names)}, not {value!r}{hint}")
+    raise error(f"{parameter} must be one of {', '.join(names)}, not {value!r:.80}{hint}")

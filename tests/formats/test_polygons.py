@@ -125,7 +125,7 @@ BOW = [[[0, 0], [2, 2], [2, 0], [0, 2], [0, 0]]]
         ({"type": "Polygon", "coordinates": OPEN}, "is no Polygon: a ring must end where it begins"),
         ({"type": "Polygon", "coordinates": [[[0, 0], ["a", 0], [1, 1]]]}, "coordinates must be finite numbers"),
         ({"type": "Polygon", "coordinates": [[[0, 0], [float("nan"), 0]]]}, "coordinates must be finite numbers"),
-        ({"type": "Polygon", "coordinates": [[[0, 0], [1e300, 0], [1, 1e300], [0, 0]]]}, "a world|invalid|an area"),
+        ({"type": "Polygon", "coordinates": [[[0, 0], [1e300, 0], [1, 1], [0, 0]]]}, "at most 1e.09 metres"),
         ({"type": "Polygon", "coordinates": BOW}, r"a Polygon is invalid: Self-intersection\[1 1\]"),
         (feature("exit", "Polygon", HALL), "feature 0: kind must be one of free, obstacle, destination, robot"),
         (feature("robt", "Polygon", HALL), "did you mean 'robot'"),

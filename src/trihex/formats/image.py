@@ -20,8 +20,9 @@ from trihex.frame import Frame
 # Pillow's names. No TIFF: its library writes what it thinks of a file to stderr.
 KINDS = ("PNG", "PPM", "BMP", "GIF", "JPEG")
 SUFFIXES = (".png", ".pgm", ".bmp")
-# What a small file may claim to unpack to: as much as 11 000 x 11 000.
-MAX_PIXELS = 2**27
+# What a small file may claim to unpack to: as much as 10 000 x 10 000.
+MAX_PIXELS = 10**8
+_ROWS_AT_ONCE = 256
 
 
 def read_pixels(content: bytes, path: object) -> tuple[NDArray[np.uint8], NDArray[np.bool_]]:
@@ -66,9 +67,14 @@ def _grey(image: object) -> tuple[NDArray[np.uint8], NDArray[np.bool_]]:
         return np.clip(np.round(values / 257), 0, 255).astype(np.uint8), np.ones(values.shape, dtype=bool)
     if image.mode in ("1", "L"):
         return np.asarray(image.convert("L")), np.ones((image.height, image.width), dtype=bool)
-    colours = np.asarray(image.convert("RGBA"))
-    mean = colours[..., :3].sum(axis=2, dtype=np.uint16) / 3
-    return np.round(mean).astype(np.uint8), colours[..., 3] == 255
+    grey = np.empty((image.height, image.width), dtype=np.uint8)
+    is_opaque = np.empty(grey.shape, dtype=bool)
+    for top in range(0, image.height, _ROWS_AT_ONCE):  # four bytes a pixel, for some rows only
+        rows = slice(top, min(top + _ROWS_AT_ONCE, image.height))
+        colours = np.asarray(image.crop((0, rows.start, image.width, rows.stop)).convert("RGBA"))
+        grey[rows] = np.round(colours[..., :3].sum(axis=2, dtype=np.uint16) / 3)
+        is_opaque[rows] = colours[..., 3] == 255
+    return grey, is_opaque
 
 
 def parse_image(content: bytes, path: str | os.PathLike[str], options: AreaOptions, progress: Progress | None) -> Area:

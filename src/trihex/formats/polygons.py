@@ -17,6 +17,10 @@ from trihex.formats.draft import Draft
 from trihex.formats.options import AreaOptions
 from trihex.record import Record
 
+# The Earth is 4e7 metres around.
+MOST_METRES = 1e9
+_PARTS = ("free", "obstacle", "destination", "robot")
+
 
 @dataclass(frozen=True, eq=False)
 class Place(Record):
@@ -51,12 +55,7 @@ def draft_of_place(place: Place, options: AreaOptions, progress: Progress | None
         If nothing is free, a geometry is invalid, or a destination or robot meets no cell.
     """
     shapely = import_shapely()
-    path = place.path
-    for shape in [*place.free, *place.obstacle, *place.destination, *place.robot]:
-        if not np.isfinite(shapely.get_coordinates(shape)).all():
-            raise FormatError(f"{path}: coordinates must be finite numbers")
-        if not shapely.is_valid(shape):
-            raise FormatError(f"{path}: a {shape.geom_type} is invalid: {shapely.is_valid_reason(shape)}")
+    place, path = _checked(place), place.path
     free = shapely.union_all(place.free)
     if free.area == 0:
         raise FormatError(f"{path}: there must be a polygon that is free; there is none with an area")
@@ -72,6 +71,23 @@ def draft_of_place(place: Place, options: AreaOptions, progress: Progress | None
     return Draft(
         area, np.concatenate(destinations) if destinations else None, np.concatenate(robots) if robots else None
     )
+
+
+def _checked(place: Place) -> Place:
+    """Return the place in whole nanometres; raise FormatError if a coordinate is no number or a shape is invalid."""
+    import shapely
+
+    def checked(shape: Any) -> Any:
+        if not (np.abs(shapely.get_coordinates(shape)) <= MOST_METRES).all():  # not so for nan
+            raise FormatError(f"{place.path}: coordinates must be finite numbers of at most {MOST_METRES:g} metres")
+        # Numbers such as 1e-320 make GEOS divide by 0.
+        shape = shapely.transform(shape, lambda coordinates: np.round(coordinates, 9))
+        if not shapely.is_valid(shape):
+            raise FormatError(f"{place.path}: a {shape.geom_type} is invalid: {shapely.is_valid_reason(shape)}")
+        return shape
+
+    parts = {name: [checked(shape) for shape in getattr(place, name)] for name in _PARTS}
+    return Place(place.path, **parts)
 
 
 def _cells_of_points(area: Area, points: Any, path: object, what: str) -> NDArray[np.int64]:
@@ -92,12 +108,15 @@ def _cells_touched(area: Area, shape: Any, path: object) -> NDArray[np.int64]:
     if shape.geom_type.endswith("Point"):
         return _cells_of_points(area, shape, path, "destination")
     cells = np.flatnonzero(~area.barriers.reshape(-1))
+    x, y = area.cell_to_metres(cells)
+    west, south, east, north = shape.bounds
+    reach = 2 * area.metres.cell_size  # no cell is wider
+    cells = cells[(x > west - reach) & (x < east + reach) & (y > south - reach) & (y < north + reach)]
     corners = area.tessellation.polygon_of_cell(*area.cell_to_xy(cells))
     polygons = shapely.polygons(np.stack(area.metres.point_to_metres(corners[..., 0], corners[..., 1]), axis=-1))
     shapely.prepare(shape)
     touched = cells[shapely.intersects(shape, polygons)]
     if touched.size == 0:
-        west, south, east, north = shape.bounds
         raise FormatError(
             f"{path}: a destination between ({west:g}, {south:g}) and ({east:g}, {north:g}) metres touches no free cell"
         )

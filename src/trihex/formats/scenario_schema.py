@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from difflib import get_close_matches
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar, get_args
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
 from pydantic.fields import FieldInfo
@@ -137,10 +137,10 @@ def _is_table(field: FieldInfo) -> bool:
 def _message(detail: ErrorDetails) -> str:
     """Return one mistake as ``path: rule, not value``."""
     *parents, last = detail["loc"]
-    path = ".".join(str(part) for part in detail["loc"])
+    path = ".".join(f"{part:.60}" if isinstance(part, str) else str(part) for part in detail["loc"])
     if detail["type"] == "extra_forbidden":
         keys = _keys_of(parents)
-        near = get_close_matches(str(last).lower(), keys, n=1)
+        near = get_close_matches(str(last)[:60].lower(), keys, n=1)
         hint = f"; did you mean {near[0]!r}?" if near else f"; keys are {', '.join(keys)}"
         return f"{path}: there is no such key{hint}"
     if detail["type"] == "missing":
@@ -164,5 +164,6 @@ def _message(detail: ErrorDetails) -> str:
 def _keys_of(parents: list[int | str]) -> list[str]:
     model: Any = ScenarioTable
     for part in parents:
-        model = model.model_fields[part].annotation
+        kinds = get_args(model.model_fields[part].annotation) or (model.model_fields[part].annotation,)
+        model = kinds[0]  # a table that may be left out is `Table | None`
     return list(model.model_fields)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
@@ -26,6 +27,13 @@ from trihex.tessellation import Tessellation
 
 Result = TypeVar("Result")
 MAX_BYTES = 2**26  # tomllib takes some 30 times as much while it reads
+# What is not closed ends with the file or the line, so that each byte is looked at once.
+_QUOTED = re.compile(
+    rb""" \"{3}.*?(?:\"{3}|\Z) | '{3}.*?(?:'{3}|\Z) | "(?:\\.|[^"\\\n])*"? | '[^'\n]*'? | \#[^\n]* """,
+    re.DOTALL | re.VERBOSE,
+)
+_DEEPEST = 50
+_MOST_MISTAKES = 50
 
 
 def read_scenario_toml(
@@ -54,8 +62,12 @@ def read_scenario_toml(
     content = read_bytes(path, MAX_BYTES) if content is None else content
     if len(content) > MAX_BYTES:
         raise FormatError(f"{path}: must be at most {MAX_BYTES} bytes long, not {len(content)}")
+    text = check_text(content, path)
+    # A key of 100 000 parts takes tomllib 6 GB and minutes, because it keeps each beginning of it.
+    if b"." * _DEEPEST in re.sub(rb"[\w \t-]+", b"", _QUOTED.sub(b"", text)):
+        raise FormatError(f"{path}: is nested too deeply")
     try:
-        document = tomllib.loads(check_text(content, path).decode())
+        document = tomllib.loads(text.decode())
     except RecursionError:
         raise FormatError(f"{path}: is nested too deeply") from None
     except FormatError:
@@ -67,6 +79,8 @@ def read_scenario_toml(
         draft = _draft_of(table, Path(path), read_area_draft, mistakes)
         if draft is not None and not mistakes:
             return draft
+    if len(mistakes) > _MOST_MISTAKES:
+        mistakes[_MOST_MISTAKES:] = [f"and {len(mistakes) - _MOST_MISTAKES} more mistakes"]
     raise FormatError("\n".join(f"{path}: {mistake}" for mistake in mistakes))
 
 

@@ -1,0 +1,1 @@
+"""Fuzzing: damaged files for every reader; ``python -m fuzz --help``."""

@@ -1,0 +1,105 @@
+"""Seeds: one small, good file of every format that trihex reads."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+from PIL import Image
+
+from trihex import Area, Frame, Scenario, Tessellation, write_area, write_plan, write_scenario
+from trihex.plan import plan_from_lists
+
+ROWS = ["...B....", ".B....B.", "........", "..BB...."]
+YAML = """image: house.pgm
+resolution: 0.1
+origin: [-1.0, 2.0, 0.3]
+negate: 0
+occupied_thresh: 0.65
+free_thresh: 0.196
+"""
+_RING = [[0, 0], [6, 0], [6, 4], [0, 4], [0, 0]]
+GEOJSON = {
+    "type": "FeatureCollection",
+    "features": [
+        {"type": "Feature", "properties": {"kind": "free"}, "geometry": {"type": "Polygon", "coordinates": [_RING]}},
+        {"type": "Feature", "properties": {"kind": "obstacle"}, "geometry": {"type": "Point", "coordinates": [3, 2]}},
+        {
+            "type": "Feature",
+            "properties": {"kind": "destination"},
+            "geometry": {"type": "LineString", "coordinates": [[1, 1], [1, 3]]},
+        },
+        {
+            "type": "Feature",
+            "properties": {"kind": "robot"},
+            "geometry": {"type": "MultiPoint", "coordinates": [[5, 1], [5, 3]]},
+        },
+    ],
+}
+WKT = "GEOMETRYCOLLECTION (POLYGON ((0 0, 6 0, 6 4, 0 4, 0 0), (2 1, 3 1, 3 2, 2 2, 2 1)), LINESTRING (4 1, 4 2))"
+TOML = """destinations = [[0, 0]]
+[area]
+rows = ["....", ".B..", "...."]
+tessellation = "triangular"
+[area.frame]
+cell_size = 0.5
+origin = [1, 2]
+[rules]
+waiting_cost = 12
+corners = "no-cut"
+[robots]
+random = 4
+seed = 7
+[planner]
+name = "greedy"
+"""
+PLACE_TOML = """destinations_in_metres = [[0.98, 5.75]]
+[area]
+path = "house.yaml"
+cell_size = 0.5
+robot_radius = 0.05
+unknown = "free"
+[robots]
+metres = [[2.6, 7.3]]
+"""
+
+
+def house() -> Image.Image:
+    """Return the picture of a house of 8 x 6 metres."""
+    pixels = np.full((60, 80), 254, dtype=np.uint8)
+    pixels[[0, -1]] = pixels[:, [0, -1]] = 0
+    pixels[20:40, 40] = 0
+    return Image.fromarray(pixels)
+
+
+def make_seeds() -> dict[str, bytes]:
+    """Return the content of a good file by its name."""
+    tessellation = Tessellation("square")
+    area = Area(tessellation, [[letter == "B" for letter in row] for row in ROWS], "yard", Frame(0.5))
+    scenario = Scenario(area, [(7, 0), (0, 3)], [(0, 0), (4, 1)])
+    plan = plan_from_lists(scenario, [[2, 2, 2], [1, 1, 1, 0]])
+    seeds = {
+        "house.yaml": YAML.encode(),
+        "house.geojson": json.dumps(GEOJSON).encode(),
+        "house.wkt": WKT.encode(),
+        "world.toml": TOML.encode(),
+        "place.toml": PLACE_TOML.encode(),
+        "starts.csv": b"x,y\n0,0\n2,2\n5,1\n",
+        "metres.csv": b"x_metres,y_metres\n0.2,-0.2\n1.7,-0.7\n",
+        "yard.scen": b"version 1\n0\tyard.map\t8\t4\t1\t0\t7\t0\t6.5\n1\tyard.map\t8\t4\t4\t2\t7\t0\t3.5\n",
+        "letters.txt": b"a..B...D\n.B.b..B.\n....D...\n",
+    }
+    with TemporaryDirectory() as name:
+        folder = Path(name)
+        plain = Area(tessellation, area.barriers, "yard")
+        write_area(plain, folder / "yard.map")
+        for suffix in ("csv", "npz", "parquet"):
+            write_plan(plan, folder / f"plan.{suffix}")
+        write_scenario(scenario, folder / "yard.toml")
+        for suffix in ("pgm", "png", "bmp", "gif", "jpeg"):
+            house().save(folder / f"house.{suffix}")
+        house().convert("RGBA").save(folder / "colours.png")
+        seeds |= {path.name: path.read_bytes() for path in folder.iterdir()}
+    return seeds
