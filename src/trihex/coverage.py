@@ -132,7 +132,9 @@ def cover_raster(
     occupied = np.ascontiguousarray(occupied, dtype=bool)
     if occupied.ndim != 2 or occupied.size == 0:
         raise AreaError(f"occupied must have shape (rows, columns) with at least one square, not {occupied.shape}")
-    pixel = Frame(resolution).cell_size / covering.cell_size
+    if not 0 < resolution <= 1e9:
+        raise AreaError(f"resolution must be above 0 and at most 1e9 metres, not {resolution:g}")
+    pixel = resolution / covering.cell_size
     frame = covering.frame_at(origin, yaw)
     tessellation = covering.tessellation
     height, width = _size_of(covering, occupied.shape[1] * resolution, occupied.shape[0] * resolution)
@@ -189,7 +191,8 @@ def cover_polygons(
         centres = shapely.points(*frame.point_to_metres(px, py))
         blocked = ~shapely.contains_properly(free, centres)
         for wall in walls:
-            near = np.flatnonzero(~blocked & shapely.dwithin(wall, centres, reach))
+            near = np.flatnonzero(~blocked)
+            near = near[shapely.dwithin(wall, centres[near], reach)]
             for some in np.array_split(near, near.size // _STARS_AT_ONCE + 1):
                 arms = star[orientation[some]] + np.stack([px[some], py[some]], axis=-1)[:, None, :]
                 ends = np.stack(frame.point_to_metres(arms[..., 0], arms[..., 1]), axis=-1)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import cos, isfinite, sin
+from math import cos, sin
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,6 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 from trihex.errors import AreaError
 from trihex.record import Record
 from trihex.tessellation import Tessellation
+
+# The Earth is 4e7 metres around; beyond, sums lose their micrometres.
+_LARGEST = 1e9
 
 Metres = NDArray[np.float64]
 
@@ -34,7 +37,7 @@ class Frame(Record):
     Raises
     ------
     AreaError
-        If a number is not finite, `cell_size` not positive or `robot_radius` negative.
+        If a number is beyond 1e9, `cell_size` not positive or `robot_radius` negative.
 
     Examples
     --------
@@ -52,12 +55,12 @@ class Frame(Record):
 
     def __post_init__(self) -> None:
         for name in ("cell_size", "yaw", "robot_radius"):
-            self._set(name, _finite(name, getattr(self, name)))
+            self._set(name, _number(name, getattr(self, name)))
         try:
             x, y = self.origin
         except (TypeError, ValueError):
             raise AreaError(f"origin must be two numbers, not {self.origin!r:.80}") from None
-        self._set("origin", (_finite("origin", x), _finite("origin", y)))
+        self._set("origin", (_number("origin", x), _number("origin", y)))
         if self.cell_size <= 0:
             raise AreaError(f"cell_size must be above 0 metres, not {self.cell_size:g}")
         if self.robot_radius < 0:
@@ -90,12 +93,12 @@ class Frame(Record):
         return tessellation.cell_at_point(*self.metres_to_point(x, y))
 
 
-def _finite(name: str, value: object) -> float:
-    """Return `value` as a finite float, else raise AreaError."""
+def _number(name: str, value: object) -> float:
+    """Return `value` as a float, else raise AreaError."""
     try:
         number = float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError, OverflowError):
         number = float("nan")
-    if not isfinite(number):
-        raise AreaError(f"{name} must be a finite number, not {value!r:.80}")
+    if not abs(number) <= _LARGEST:
+        raise AreaError(f"{name} must be a number of at most {_LARGEST:g}, not {value!r:.80}")
     return number

@@ -40,8 +40,8 @@ def parse_ros(content: bytes, path: str | os.PathLike[str], options: AreaOptions
     """
     entries = _parse_yaml(check_text(content, path).decode(), path)
     resolution = _number(entries, "resolution", path)
-    if resolution <= 0:
-        raise FormatError(f"{path}: resolution must be above 0 metres, not {resolution:g}")
+    if not 0 < resolution <= 1e9:
+        raise FormatError(f"{path}: resolution must be above 0 and at most 1e9 metres, not {resolution:g}")
     west, south, yaw = _origin(entries, path)
     covering = options.covering_of(path, "a ROS map")
     image = Path(path).parent / _text(entries, "image", path)
