@@ -1,4 +1,4 @@
-"""The least total time of small scenarios, by integer programming over the drawn cells; every rule is one inequality."""
+"""The least total time of small scenarios, by integer programming over drawn cells; every rule is an inequality."""
 
 from collections import defaultdict
 
@@ -38,7 +38,7 @@ def least_total_time(scenario, steps, *, count_steps=False):
                     vertex = rules.vertex(cell, other)
                     if scenario.crossing == "forbid" and vertex is not None:
                         at_most["vertex", vertex, step].append(move)
-    limits = {name: 1 for name in at_most}
+    limits = dict.fromkeys(at_most, 1)
     for name in at_most:
         if name[0] == "enter":
             limits[name] = scenario.destination_capacity or len(robots)
