@@ -17,6 +17,9 @@ PAGE: Colour = (255, 255, 255)
 INK: Colour = (32, 33, 36)
 FREE: Colour = (244, 244, 240)
 BARRIER: Colour = (58, 61, 66)
+# Where the picture shows what stands in the world, barriers are only where robots do not fit.
+GROUND: Colour = BARRIER
+TIGHT: Colour = (196, 199, 204)
 DESTINATION: Colour = (0, 158, 115)
 UNREACHED: Colour = (188, 186, 190)
 # Robots, by the sets of the paper (section 2.1.1): filled, waiting, final; and those that never arrive.

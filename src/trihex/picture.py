@@ -17,6 +17,7 @@ from trihex import marks as make
 from trihex import palette
 from trihex.area import Area
 from trihex.formats.files import new_file, suffix_of
+from trihex.ground import Ground
 from trihex.palette import BARRIER, DESTINATION, FREE, INK, MOVING, SERIES, STRANDED, UNREACHED
 from trihex.plan import Plan
 from trihex.png import paint, write_png
@@ -77,7 +78,12 @@ class Picture(Record):
 
 
 def picture_of_area(
-    record: Area | Scenario, *, width: int | None = None, title: str | None = None, legend: bool = True
+    record: Area | Scenario,
+    *,
+    width: int | None = None,
+    title: str | None = None,
+    legend: bool = True,
+    ground: Ground | None = None,
 ) -> Picture:
     """Return the picture of an area, or of a scenario: barriers, destinations, robots.
 
@@ -90,6 +96,8 @@ def picture_of_area(
         Default: the name of the area. An empty title leaves out the line below it, too.
     legend : bool
         Whether to explain the colours.
+    ground : Ground, optional
+        What stands in the world, painted onto the cells.
 
     Examples
     --------
@@ -98,14 +106,14 @@ def picture_of_area(
     """
     area, scale, more = _area_of(record), scale_for(_area_of(record), width), ""
     marks: list[Mark] = []
-    keys: list[Key | Ramp] = _barrier_key(area)
+    keys: list[Key | Ramp] = _barrier_key(area, ground)
     if isinstance(record, Scenario):
         robots, more = np.arange(record.robot_count), f", {record.robot_count} robots"
         marks += make.destination_marks(record, scale) + make.robot_marks(record, robots, MOVING, scale)
         keys += [Key("cell", DESTINATION, "destination")]
         keys += [Key("disc", MOVING, "robot")] if robots.size else []
-    cells, colours = make.base_cells(record, 0, 1, 2), colour_rows([FREE, BARRIER, DESTINATION])
-    scene = Scene(area, cells, colours, scale, (1, 2), tuple(marks), tuple(keys))
+    cells, colours = make.base_cells(record, 0, 1, 2), colour_rows([FREE, _barrier_colour(ground), DESTINATION])
+    scene = Scene(area, cells, colours, scale, (1, 2), tuple(marks), tuple(keys), ground=ground)
     return _titled(scene, title, "Area", more, legend)
 
 
@@ -205,14 +213,20 @@ def picture_of_d_scheme(
 
 
 def picture_of_plan(
-    plan: Plan, *, width: int | None = None, title: str | None = None, legend: bool = True, paths: bool | None = None
+    plan: Plan,
+    *,
+    width: int | None = None,
+    title: str | None = None,
+    legend: bool = True,
+    paths: bool | None = None,
+    ground: Ground | None = None,
 ) -> Picture:
     """Return the picture of a plan: the paths of its robots, or how often each cell is visited.
 
     Parameters
     ----------
     plan : Plan
-    width, title, legend
+    width, title, legend, ground
         As for `picture_of_area`.
     paths : bool, optional
         Whether to draw a line for each robot, not the visits. Default: if there are 26 at most and cells are large.
@@ -225,7 +239,7 @@ def picture_of_plan(
     shades = palette.visits_ramp(_SHADES)
     first = _SHADES
     cells = make.base_cells(scenario, first, first + 1, first + 2)
-    keys: list[Key | Ramp] = [*_barrier_key(area), Key("cell", DESTINATION, "destination")]
+    keys: list[Key | Ramp] = [*_barrier_key(area, ground), Key("cell", DESTINATION, "destination")]
     marks: list[Mark] = make.destination_marks(scenario, scale)
     if paths:
         for robot, path in enumerate(make.robot_paths(plan)):
@@ -244,9 +258,9 @@ def picture_of_plan(
         keys += [Key("disc", MOVING, "start")] if arrived.size else []
         keys += [Ramp(_samples(shades), "visits (log)", "1", str(most))] if is_shaded.any() else []
     keys += [Key("disc", STRANDED, "never arrives")] if stranded.size else []
-    colours = np.vstack([shades, colour_rows([FREE, BARRIER, DESTINATION])])
+    colours = np.vstack([shades, colour_rows([FREE, _barrier_colour(ground), DESTINATION])])
     bold = (*range(first), first + 1, first + 2)
-    scene = Scene(area, cells, colours, scale, bold, tuple(marks), tuple(keys))
+    scene = Scene(area, cells, colours, scale, bold, tuple(marks), tuple(keys), ground=ground)
     more = f", {arrived.size} of {scenario.robot_count} robots arrive, {plan.steps} steps, total time {plan.total_time}"
     return _titled(scene, title, f"Plan ({plan.planner})" if plan.planner else "Plan", more, legend)
 
@@ -255,8 +269,15 @@ def _area_of(record: Area | Scenario) -> Area:
     return record if isinstance(record, Area) else record.area
 
 
-def _barrier_key(area: Area) -> list[Key | Ramp]:
-    return [Key("cell", BARRIER, "barrier")] if area.free_count < area.cell_count else []
+def _barrier_colour(ground: Ground | None) -> palette.Colour:
+    return BARRIER if ground is None else palette.TIGHT
+
+
+def _barrier_key(area: Area, ground: Ground | None = None) -> list[Key | Ramp]:
+    keys: list[Key | Ramp] = []
+    if area.free_count < area.cell_count:
+        keys.append(Key("cell", _barrier_colour(ground), "barrier" if ground is None else "no room"))
+    return keys if ground is None else [Key("cell", palette.GROUND, "occupied"), *keys]
 
 
 def _unreached_key(is_needed: bool | np.bool_) -> list[Key | Ramp]:

@@ -10,7 +10,7 @@ from typing import IO, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.palette import PAGE, Colour
+from trihex.palette import GROUND, PAGE, Colour
 from trihex.scene import OUTLINES_FROM, Discs, Lines, Scene, Texts
 from trihex.sheet import RAMP_WIDTH, Sheet, Words, arrange, font_of
 
@@ -94,7 +94,15 @@ def _body(scene: Scene, width: int, height: int, larger: int) -> NDArray[np.uint
             min(height, first + rows),
             image,
         )
+    if scene.ground is not None:
+        image[ground_of_body(scene, width, height, scale)] = GROUND
     return image
+
+
+def ground_of_body(scene: Scene, width: int, height: int, scale: float) -> NDArray[np.bool_]:
+    """Return which pixels of the cells show something that stands in the world."""
+    assert scene.ground is not None
+    return scene.ground.occupied_at((np.arange(width) + 0.5) / scale, ((np.arange(height) + 0.5) / scale)[:, None])
 
 
 def _body_with_lines(scene: Scene, sheet: Sheet, lines: list[Lines]) -> NDArray[np.uint8]:

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from trihex.area import Area
 from trihex.errors import FormatError, TooLargeError
+from trihex.ground import Ground
 from trihex.palette import INK, Colour, is_light
 from trihex.record import Record, read_only
 
@@ -97,6 +98,8 @@ class Scene(Record):
     title, subtitle : str
     scale : float
         Pixels per edge step.
+    ground : Ground, optional
+        What is painted onto the cells, below all marks.
     """
 
     area: Area
@@ -108,6 +111,7 @@ class Scene(Record):
     legend: tuple[Key | Ramp, ...] = ()
     title: str = ""
     subtitle: str = ""
+    ground: Ground | None = None
 
     @property
     def is_outlined(self) -> bool:

@@ -10,8 +10,8 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.palette import INK, PAGE, Colour
-from trihex.png import disc_radius, paint, write_png
+from trihex.palette import GROUND, INK, PAGE, Colour
+from trihex.png import disc_radius, ground_of_body, paint, write_png
 from trihex.scene import Discs, Lines, Scene, Texts
 from trihex.sheet import RAMP_WIDTH, Sheet, arrange
 
@@ -55,6 +55,7 @@ def _whole(values: NDArray[np.float64], scene: Scene) -> NDArray[np.int64]:
 def _polygons_and_marks(scene: Scene) -> list[str]:
     return [
         _cells(scene),
+        *([_ground(scene)] if scene.ground is not None else []),
         *(_lines(mark, scene) for mark in scene.marks if isinstance(mark, Lines)),
         *(_discs(mark, scene) for mark in scene.marks if isinstance(mark, Discs)),
         *(_texts(mark, scene) for mark in scene.marks if isinstance(mark, Texts)),
@@ -90,6 +91,22 @@ def _image(scene: Scene, sheet: Sheet) -> str:
     write_png(paint(scene.without_words()), file)
     return (
         f'<image width="{sheet.body_width * UNITS}" height="{sheet.body_height * UNITS}"'
+        f' href="data:image/png;base64,{b64encode(file.getvalue()).decode()}"/>'
+    )
+
+
+def _ground(scene: Scene) -> str:
+    """Return what stands in the world as an image, transparent elsewhere."""
+    from PIL import Image
+
+    across, down = scene.area.tessellation.extent(scene.area.height, scene.area.width)
+    width, height = max(1, round(across * scene.scale)), max(1, round(down * scene.scale))
+    picture = Image.fromarray(ground_of_body(scene, width, height, scene.scale).astype(np.uint8))
+    picture.putpalette([*PAGE, *GROUND])
+    file = BytesIO()
+    picture.save(file, format="PNG", transparency=0)
+    return (
+        f'<image width="{width * UNITS}" height="{height * UNITS}"'
         f' href="data:image/png;base64,{b64encode(file.getvalue()).decode()}"/>'
     )
 

@@ -73,7 +73,7 @@ def command(
         with bar("writing", "parts") as progress:
             write_plan(report.plan, out, progress=progress)
     if picture:
-        picture_of_plan(report.plan).save(picture)
+        picture_of_plan(report.plan, ground=draft.ground).save(picture)
     if waypoints:
         write_waypoints(report.plan, waypoints, speed=speed)
     if write_scenario:

@@ -109,11 +109,11 @@ def _parse_area(
     if form == "ros":
         from trihex.formats.ros import parse_ros
 
-        return Draft(parse_ros(content, path, options, progress))
+        return parse_ros(content, path, options, progress)
     if form == "image":
         from trihex.formats.image import parse_image
 
-        return Draft(parse_image(content, path, options, progress))
+        return parse_image(content, path, options, progress)
     if form == "geojson":
         from trihex.formats.geojson import parse_geojson
 

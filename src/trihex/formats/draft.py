@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from trihex.area import Area
 from trihex.errors import ScenarioError
+from trihex.ground import Ground
 from trihex.record import Record
 from trihex.scenario import Scenario, random_robots
 
@@ -30,6 +31,8 @@ class Draft(Record):
     crossing, corners : str, optional
     planner : str, optional
     planner_options : dict
+    ground : Ground, optional
+        What stands in the world beneath the area, for pictures.
     """
 
     area: Area
@@ -43,6 +46,7 @@ class Draft(Record):
     destination_capacity: int | None = None
     planner: str | None = None
     planner_options: dict[str, Any] = field(default_factory=dict)
+    ground: Ground | None = None
 
     def complete(self) -> Scenario:
         """Return the scenario; what is still open takes its default.

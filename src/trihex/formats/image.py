@@ -13,9 +13,11 @@ from numpy.typing import NDArray
 from trihex.area import Area
 from trihex.coverage import Progress, cover_raster
 from trihex.errors import FormatError, check_choice
+from trihex.formats.draft import Draft
 from trihex.formats.files import new_file
 from trihex.formats.options import AreaOptions
 from trihex.frame import Frame
+from trihex.ground import Ground
 
 # Pillow's names. No TIFF: its library writes what it thinks of a file to stderr.
 KINDS = ("PNG", "PPM", "BMP", "GIF", "JPEG")
@@ -77,7 +79,7 @@ def _grey(image: object) -> tuple[NDArray[np.uint8], NDArray[np.bool_]]:
     return grey, is_opaque
 
 
-def parse_image(content: bytes, path: str | os.PathLike[str], options: AreaOptions, progress: Progress | None) -> Area:
+def parse_image(content: bytes, path: str | os.PathLike[str], options: AreaOptions, progress: Progress | None) -> Draft:
     """Return the area of an image: a cell for each pixel, or cells of a size if the options have one.
 
     With a cell size the lower left corner of the image lies at (0, 0) metres. Transparent pixels count as bright.
@@ -94,18 +96,20 @@ def parse_image(content: bytes, path: str | os.PathLike[str], options: AreaOptio
     if options.cell_size is None:
         if options.robot_radius or options.resolution is not None:
             raise FormatError(f"{path}: robot_radius and resolution need cell_size, the edge step of a cell in metres")
-        return Area(options.tessellation, occupied, name)
+        return Draft(Area(options.tessellation, occupied, name))
     if options.resolution is None:
         raise FormatError(f"{path}: an image has no measure; give resolution, the metres for each pixel")
-    return cover_raster(
+    covering = options.covering_of(path, "an image")
+    area = cover_raster(
         occupied,
-        options.covering_of(path, "an image"),
+        covering,
         resolution=options.resolution,
         origin=(0.0, occupied.shape[0] * options.resolution),
         is_outside_occupied=options.unknown == "barrier",
         name=name,
         progress=progress,
     )
+    return Draft(area, ground=Ground(occupied, options.resolution / covering.cell_size))
 
 
 def write_image(area: Area, path: str | os.PathLike[str]) -> None:

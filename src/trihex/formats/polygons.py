@@ -15,10 +15,12 @@ from trihex.coverage import Progress, cover_polygons, import_shapely
 from trihex.errors import AreaError, FormatError
 from trihex.formats.draft import Draft
 from trihex.formats.options import AreaOptions
+from trihex.ground import Ground
 from trihex.record import Record
 
 # The Earth is 4e7 metres around.
 MOST_METRES = 1e9
+_GROUND_PIXELS = 500_000
 _PARTS = ("free", "obstacle", "destination", "robot")
 
 
@@ -69,8 +71,26 @@ def draft_of_place(place: Place, options: AreaOptions, progress: Progress | None
     destinations = [_cells_touched(area, shape, path) for shape in place.destination]
     robots = [_cells_of_points(area, shape, path, "robot") for shape in place.robot]
     return Draft(
-        area, np.concatenate(destinations) if destinations else None, np.concatenate(robots) if robots else None
+        area,
+        np.concatenate(destinations) if destinations else None,
+        np.concatenate(robots) if robots else None,
+        ground=_ground(area, free, place.obstacle),
     )
+
+
+def _ground(area: Area, free: Any, obstacles: list[Any]) -> Ground:
+    """Return a raster of what is occupied: pixels whose centre is not free, or half a pixel from an obstacle."""
+    import shapely
+
+    across, down = area.tessellation.extent(area.height, area.width)
+    square = max(1 / 16, (across * down / _GROUND_PIXELS) ** 0.5)
+    py, px = np.mgrid[0:down:square, 0:across:square] + square / 2
+    x, y = area.metres.point_to_metres(px, py)
+    occupied = ~shapely.contains_xy(free, x, y)
+    for obstacle in obstacles:
+        shapely.prepare(obstacle)
+        occupied |= shapely.dwithin(obstacle, shapely.points(x, y), square * area.metres.cell_size / 2)
+    return Ground(occupied, square)
 
 
 def _checked(place: Place) -> Place:

@@ -11,12 +11,13 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.area import Area
 from trihex.coverage import Progress, cover_raster
 from trihex.errors import FormatError, check_choice
+from trihex.formats.draft import Draft
 from trihex.formats.files import check_text, read_bytes
 from trihex.formats.image import read_pixels
 from trihex.formats.options import AreaOptions
+from trihex.ground import Ground
 
 MODES = ("trinary", "scale", "raw")
 _REQUIRED = ("image", "resolution", "origin")
@@ -24,8 +25,8 @@ _KEYS = (*_REQUIRED, "occupied_thresh", "free_thresh", "negate", "mode")
 _LINE = re.compile(r"(?P<key>[A-Za-z_]\w*)\s*:(?:\s+(?P<value>.*))?$")
 
 
-def parse_ros(content: bytes, path: str | os.PathLike[str], options: AreaOptions, progress: Progress | None) -> Area:
-    """Return the area that covers a ROS map, as nav2's map_server understands it.
+def parse_ros(content: bytes, path: str | os.PathLike[str], options: AreaOptions, progress: Progress | None) -> Draft:
+    """Return the area that covers a ROS map, and the map as its ground, as nav2's map_server understands it.
 
     With p = (255 - grey) / 255, or grey / 255 if negated, a pixel is occupied if p > occupied_thresh, free if
     p < free_thresh, and unknown otherwise. In mode scale, transparent pixels are unknown as well, and what lies between
@@ -40,15 +41,15 @@ def parse_ros(content: bytes, path: str | os.PathLike[str], options: AreaOptions
     """
     entries = _parse_yaml(check_text(content, path).decode(), path)
     resolution = _number(entries, "resolution", path)
-    if not 0 < resolution <= 1e9:
-        raise FormatError(f"{path}: resolution must be above 0 and at most 1e9 metres, not {resolution:g}")
+    if not 1e-9 <= resolution <= 1e9:
+        raise FormatError(f"{path}: resolution must be between 1e-9 and 1e9 metres, not {resolution:g}")
     west, south, yaw = _origin(entries, path)
     covering = options.covering_of(path, "a ROS map")
     image = Path(path).parent / _text(entries, "image", path)
     grey, is_opaque = read_pixels(read_bytes(image), image)
     occupied, free = _states(entries, grey, is_opaque, path)
     height = grey.shape[0] * resolution
-    return cover_raster(
+    area = cover_raster(
         occupied if options.unknown == "free" else ~free,
         covering,
         resolution=resolution,
@@ -59,6 +60,7 @@ def parse_ros(content: bytes, path: str | os.PathLike[str], options: AreaOptions
         name=Path(path).stem,
         progress=progress,
     )
+    return Draft(area, ground=Ground(occupied, resolution / covering.cell_size))
 
 
 def _states(

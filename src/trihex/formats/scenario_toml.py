@@ -7,6 +7,7 @@ import os
 import re
 import tomllib
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -96,7 +97,7 @@ def _draft_of(
         try:
             return work()
         except (TrihexError, OSError) as error:
-            text = f"{error.strerror}: {error.filename}" if isinstance(error, OSError) else str(error)
+            text = f"{error.strerror}: {error.filename!s:.200}" if isinstance(error, OSError) else str(error)
             mistakes.append(f"{key}: {text.removeprefix('cells: ')}")
             return None
 
@@ -130,6 +131,7 @@ def _draft_of(
         **table.rules.model_dump(),
         planner=table.planner.name,
         planner_options=table.planner.options,
+        ground=draft.ground,
     )
 
 
@@ -150,7 +152,8 @@ def _area_draft(table: AreaTable, path: Path, read_area_draft: Callable[[Path, A
     if table.frame is not None:
         x, y = table.frame.origin
         frame = Frame(table.frame.cell_size, (x, y), table.frame.yaw, table.frame.robot_radius)
-    return Draft(Area(tessellation, draft.area.barriers, name, frame), draft.destinations, draft.robots)
+    area = Area(tessellation, draft.area.barriers, name, frame)
+    return replace(draft, area=area)
 
 
 def write_scenario_toml(
