@@ -51,7 +51,7 @@ CASES = {
     "ROS map without resolution": (YAML.replace("resolution: 0.1\n", ""), BAD, "bad: a ROS map must have the key 'resolution'"),
     "ROS map with a slip": (YAML.replace("resolution", "resolutoin"), BAD, "bad: a ROS map must have the key 'resolution'; is it 'resolutoin'?"),
     "resolution in words": (YAML.replace("0.1", "fine"), BAD, "bad: resolution must be a number, not 'fine'"),
-    "resolution below 0": (YAML.replace("0.1", "-0.1"), BAD, "bad: resolution must be above 0 and at most 1e9 metres, not -0.1"),
+    "resolution below 0": (YAML.replace("0.1", "-0.1"), BAD, "bad: resolution must be between 1e-9 and 1e9 metres, not -0.1"),
     "origin of one number": (YAML.replace("[0, 0, 0]", "0"), BAD, "bad: origin must be a list [x, y, yaw], not '0'"),
     "origin that does not end": (YAML.replace("[0, 0, 0]", "[0, 0"), BAD, "bad: line 3: the list of origin must end with ] on the same line"),
     "thresholds the wrong way round": (YAML + "free_thresh: 0.9\n", BAD, "bad: thresholds must be 0 <= free_thresh <= occupied_thresh <= 1, not 0.9 and 0.65"),

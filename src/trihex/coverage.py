@@ -132,8 +132,8 @@ def cover_raster(
     occupied = np.ascontiguousarray(occupied, dtype=bool)
     if occupied.ndim != 2 or occupied.size == 0:
         raise AreaError(f"occupied must have shape (rows, columns) with at least one square, not {occupied.shape}")
-    if not 0 < resolution <= 1e9:
-        raise AreaError(f"resolution must be above 0 and at most 1e9 metres, not {resolution:g}")
+    if not 1e-9 <= resolution <= 1e9:
+        raise AreaError(f"resolution must be between 1e-9 and 1e9 metres, not {resolution:g}")
     pixel = resolution / covering.cell_size
     frame = covering.frame_at(origin, yaw)
     tessellation = covering.tessellation

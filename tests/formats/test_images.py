@@ -90,7 +90,7 @@ def test_bombs_and_torn_files_are_refused(tmp_path, content, message):
     ("options", "message"),
     [
         ({"threshold": 1.5}, r"threshold must be between 0 and 1, not 1\.5"),
-        ({"resolution": 0.0}, r"resolution must be above 0 and at most 1e9 metres, not 0"),
+        ({"resolution": 0.0}, r"resolution must be between 1e-9 and 1e9 metres, not 0"),
         ({"resolution": 0.1}, "robot_radius and resolution need cell_size"),
         ({"robot_radius": 0.1}, "robot_radius and resolution need cell_size"),
         ({"cell_size": 1.0}, "give resolution, the metres for each pixel"),

@@ -53,8 +53,8 @@ class AreaOptions(Record):
         check_choice("unknown", self.unknown, UNKNOWNS, FormatError)
         if not 0 <= self.threshold <= 1:
             raise FormatError(f"threshold must be between 0 and 1, not {self.threshold:g}")
-        if self.resolution is not None and not 0 < self.resolution <= 1e9:
-            raise FormatError(f"resolution must be above 0 and at most 1e9 metres, not {self.resolution:g}")
+        if self.resolution is not None and not 1e-9 <= self.resolution <= 1e9:
+            raise FormatError(f"resolution must be between 1e-9 and 1e9 metres, not {self.resolution:g}")
 
     def covering_of(self, path: object, kind: str) -> Covering:
         """Return how to cover a place that is measured in metres; raise FormatError if there is no cell size."""

@@ -136,7 +136,7 @@ def read_plan_npz(path: str | os.PathLike[str], content: bytes | None = None) ->
     except FormatError:
         raise
     except _DAMAGE as error:
-        raise FormatError(f"{path}: is no whole .npz file: {error}") from None
+        raise FormatError(f"{path}: is no whole .npz file: {error!s:.120}") from None
     if (version := int(arrays["version"])) != VERSION:
         raise FormatError(f"{path}: version must be {VERSION}, not {version}")
     text = {name: str(arrays[name]) for name, (kind, _) in _ENTRIES.items() if kind == "U"}
