@@ -136,7 +136,7 @@ def test_all_mistakes_of_a_scenario_are_told(folder):
     assert result.exit_code == 2
     assert result.stderr.splitlines() == [
         "trihex: error: s.toml: area.costs: must be one of paper, euclidean, not 'cheap'",
-        "trihex: error: s.toml: colour: there is no such key; keys are area, destinations, destinations_in_metres, rules, robots, planner",
+        "trihex: error: s.toml: colour: there is no such key; keys are area, destinations, destinations_in_metres, rules, robots, planner, outputs",
     ]
 
 

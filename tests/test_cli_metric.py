@@ -87,3 +87,25 @@ def test_show_tells_and_draws_an_area(house):
     ]
     assert len(lines) == 3 + 9 and set("".join(lines[3:])) <= set(".:+#")
     assert lines[-1] == "#" * 23
+
+
+def test_a_scenario_tells_its_outputs_and_writes_them_beside_itself(house, tmp_path, monkeypatch):
+    first = ["--robots", 5, "--speed", "0.5", "--write-scenario", "s.toml", "--out", "p.npz", "--waypoints", "w.csv"]
+    assert run("plan", "house.yaml", *SIZE, *PLACES, *first, "--picture", "p.svg").exit_code == 0
+    text = (tmp_path / "s.toml").read_text()
+    assert '[outputs]\nplan = "p.npz"\npicture = "p.svg"\nwaypoints = "w.csv"\nspeed = 0.5\n' in text
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "elsewhere" / "s.toml").write_text(text.replace("p.svg", "p.png"))
+    before = {name: (tmp_path / name).read_bytes() for name in ("p.npz", "w.csv")}
+    assert run("plan", "elsewhere/s.toml", "--waypoints", "other.csv").exit_code == 0
+    assert (tmp_path / "elsewhere" / "p.npz").read_bytes() == before["p.npz"]
+    assert (tmp_path / "elsewhere" / "p.png").exists() and not (tmp_path / "elsewhere" / "w.csv").exists()
+    assert (tmp_path / "other.csv").read_bytes() == before["w.csv"]
+
+
+@pytest.mark.parametrize("output", ["../p.npz", "/tmp/p.npz", "a/../../p.npz", ""])
+def test_a_scenario_must_not_write_elsewhere(house, tmp_path, output):
+    assert run("plan", "house.yaml", *SIZE, *PLACES, "--robots", 2, "--write-scenario", "s.toml").exit_code == 0
+    (tmp_path / "s.toml").write_text((tmp_path / "s.toml").read_text() + f'[outputs]\nplan = "{output}"\n')
+    done = run("plan", "s.toml")
+    assert done.exit_code == 2 and "outputs.plan: must be a path beside the scenario or below it" in done.output

@@ -108,7 +108,7 @@ rules.crossing: must be one of forbid, allow, not 'forbit'; did you mean 'forbid
 rules.destination_capacity: must be greater than or equal to 1, not 0
 robots.random: must be a whole number, not 1.5
 planner: must be a table, not 'fcost'
-colour: there is no such key; keys are area, destinations, destinations_in_metres, rules, robots, planner
+colour: there is no such key; keys are area, destinations, destinations_in_metres, rules, robots, planner, outputs
 area: must have only one of path, rows, not path and rows
 robots: must have only one of cells, metres, file, random, not cells and random
 """

@@ -62,7 +62,7 @@ def rule_options(command: Command) -> Command:
         click.option(
             "--destination-capacity",
             type=Whole(1),
-            help="Robots that may enter one destination in one step. [default: any number]",
+            help="Robots that may enter one destination in one step. [default: any number; 1 in metres]",
         ),
         click.option(
             "--crossing",

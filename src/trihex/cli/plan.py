@@ -26,7 +26,7 @@ from trihex.cli.types import Metres, Name
 @click.option("--summary", type=PATH, metavar="FILE", help="The report as JSON; - writes it to the standard output.")
 @click.option("--picture", type=PATH, metavar="FILE", help="The plan drawn, as .png or .svg.")
 @click.option("--waypoints", type=PATH, metavar="FILE", help="Where each robot is when, in metres and seconds.")
-@click.option("--speed", type=Metres(), default=1.0, show_default=True, help="Of the robots, in metres a second.")
+@click.option("--speed", type=Metres(), help="Of the robots, in metres a second. [default: 1.0]")
 @click.option("--write-scenario", type=PATH, metavar="FILE", help="All that was planned, as a scenario .toml.")
 def command(
     area: Path,
@@ -36,49 +36,63 @@ def command(
     summary: Path | None,
     picture: Path | None,
     waypoints: Path | None,
-    speed: float,
+    speed: float | None,
     write_scenario: Path | None,
     **options: Any,
 ) -> int:
     """Plan collision-free paths for all robots.
 
-    AREA is a MovingAI .map, letters .txt (. free, B barrier, D destination, small letters robots), or a scenario .toml,
-    which holds rules, destinations and robots as well; options come before what the file says.
+    AREA is a MovingAI .map, letters .txt (. free, B barrier, D destination, small letters robots), an image, a place in
+    metres (ROS map .yaml, GeoJSON, WKT; give --cell-size and --robot-radius), or a scenario .toml, which holds rules,
+    destinations, robots and outputs as well; options come before what the file says.
 
     Exit status 1: some robots cannot arrive. The others are planned and all outputs are written.
     """
-    from trihex.formats import PLAN_SUFFIXES, WAYPOINT_SUFFIXES, write_plan, write_waypoints
+    from trihex.formats import write_plan, write_waypoints
     from trihex.formats import write_scenario as write_scenario_file
-    from trihex.picture import SUFFIXES, picture_of_plan
+    from trihex.picture import picture_of_plan
 
-    check_outputs(
-        (out, PLAN_SUFFIXES, "a plan"),
-        (summary, (), "a summary"),
-        (picture, SUFFIXES, "a picture"),
-        (waypoints, WAYPOINT_SUFFIXES, "waypoints"),
-        (write_scenario, (".toml",), "a scenario"),
-    )
+    given = {"plan": out, "summary": summary, "picture": picture, "waypoints": waypoints, "speed": speed}
+    outputs: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
+    _check_outputs(outputs, write_scenario)
     begin = perf_counter()
     draft = read_described(area, options)
     seconds = {"read": perf_counter() - begin}
+    outputs = draft.outputs | outputs
+    _check_outputs(outputs, write_scenario)
     scenario = complete(draft)
     planner = planner or draft.planner or "fcost"
     planner_options = {**(draft.planner_options if planner == draft.planner else {}), **_parsed(planner_option)}
     _check_options(planner, planner_options)
-    if waypoints and scenario.area.frame is None:
+    if "waypoints" in outputs and scenario.area.frame is None:
         raise wrong_use("--waypoints are in metres: add --cell-size")
     report = _reported(scenario, planner, planner_options, seconds)
 
-    if out:
+    if "plan" in outputs:
         with bar("writing", "parts") as progress:
-            write_plan(report.plan, out, progress=progress)
-    if picture:
-        picture_of_plan(report.plan, ground=draft.ground).save(picture)
-    if waypoints:
-        write_waypoints(report.plan, waypoints, speed=speed)
+            write_plan(report.plan, outputs["plan"], progress=progress)
+    if "picture" in outputs:
+        picture_of_plan(report.plan, ground=draft.ground).save(outputs["picture"])
+    if "waypoints" in outputs:
+        write_waypoints(report.plan, outputs["waypoints"], speed=outputs.get("speed", 1.0))
     if write_scenario:
-        write_scenario_file(scenario, write_scenario, planner=planner, planner_options=planner_options)
-    return _told(report, summary)
+        kept = {name: value for name, value in outputs.items() if str(value) != "-"}
+        write_scenario_file(scenario, write_scenario, planner=planner, planner_options=planner_options, outputs=kept)
+    return _told(report, outputs.get("summary"))
+
+
+def _check_outputs(outputs: dict[str, Any], write_scenario: Path | None) -> None:
+    """Raise unless all that is to be written can be."""
+    from trihex.formats import PLAN_SUFFIXES, WAYPOINT_SUFFIXES
+    from trihex.picture import SUFFIXES
+
+    check_outputs(
+        (outputs.get("plan"), PLAN_SUFFIXES, "a plan"),
+        (outputs.get("summary"), (), "a summary"),
+        (outputs.get("picture"), SUFFIXES, "a picture"),
+        (outputs.get("waypoints"), WAYPOINT_SUFFIXES, "waypoints"),
+        (write_scenario, (".toml",), "a scenario"),
+    )
 
 
 def _reported(scenario: Any, planner: str, planner_options: dict[str, Any], seconds: dict[str, float]) -> Any:

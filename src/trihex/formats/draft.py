@@ -33,6 +33,8 @@ class Draft(Record):
     planner_options : dict
     ground : Ground, optional
         What stands in the world beneath the area, for pictures.
+    outputs : dict
+        What is to be written: paths of `plan`, `summary`, `picture` and `waypoints`, and the `speed` of the robots.
     """
 
     area: Area
@@ -47,6 +49,7 @@ class Draft(Record):
     planner: str | None = None
     planner_options: dict[str, Any] = field(default_factory=dict)
     ground: Ground | None = None
+    outputs: dict[str, Any] = field(default_factory=dict)
 
     def complete(self) -> Scenario:
         """Return the scenario; what is still open takes its default.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from difflib import get_close_matches
+from pathlib import PurePath
 from typing import Annotated, Any, ClassVar, get_args
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
@@ -94,6 +95,26 @@ class PlannerTable(_Table):
     options: dict[str, Any] = {}
 
 
+def _beside(value: str) -> str:
+    """Return the path of an output; a scenario from somewhere must not write to anywhere."""
+    if not value or "\0" in value or PurePath(value).is_absolute() or ".." in PurePath(value).parts:
+        raise ValueError(f"must be a path beside the scenario or below it, not {value!r:.60}")
+    return value
+
+
+_Output = Annotated[str, AfterValidator(_beside)]
+
+
+class OutputsTable(_Table):
+    """[outputs]: what `trihex plan` writes, unless its options say otherwise."""
+
+    plan: _Output | None = None
+    summary: _Output | None = None
+    picture: _Output | None = None
+    waypoints: _Output | None = None
+    speed: Annotated[_Number, Field(gt=0)] | None = None
+
+
 class ScenarioTable(_Table):
     """The whole file."""
 
@@ -104,6 +125,7 @@ class ScenarioTable(_Table):
     rules: RulesTable = RulesTable()
     robots: RobotsTable = RobotsTable()
     planner: PlannerTable = PlannerTable()
+    outputs: OutputsTable = OutputsTable()
 
 
 def check_document(document: dict[str, Any]) -> tuple[ScenarioTable | None, list[str]]:

@@ -132,7 +132,14 @@ def _draft_of(
         planner=table.planner.name,
         planner_options=table.planner.options,
         ground=draft.ground,
+        outputs=_outputs(table, path),
     )
+
+
+def _outputs(table: ScenarioTable, path: Path) -> dict[str, Any]:
+    """Return the outputs by name, with paths beside the scenario."""
+    given = {name: value for name, value in table.outputs.model_dump().items() if value is not None}
+    return {name: path.parent / value if isinstance(value, str) else value for name, value in given.items()}
 
 
 def _area_draft(table: AreaTable, path: Path, read_area_draft: Callable[[Path, AreaOptions], Draft]) -> Draft:
@@ -157,9 +164,16 @@ def _area_draft(table: AreaTable, path: Path, read_area_draft: Callable[[Path, A
 
 
 def write_scenario_toml(
-    scenario: Scenario, path: str | os.PathLike[str], planner: str = "", planner_options: dict[str, Any] | None = None
+    scenario: Scenario,
+    path: str | os.PathLike[str],
+    planner: str = "",
+    planner_options: dict[str, Any] | None = None,
+    outputs: dict[str, Any] | None = None,
 ) -> None:
-    """Write a scenario with all that is needed to plan it again: rows of the area, cells of robots and destinations."""
+    """Write a scenario with all that is needed to plan it again: rows of the area, cells of robots and destinations.
+
+    `outputs` are paths by name, and `speed`; paths that do not lie beside the scenario or below it are left out.
+    """
     area, tessellation = scenario.area, scenario.area.tessellation
     rows = ["".join("B" if barrier else "." for barrier in row) for row in area.barriers.tolist()]
     lines = [
@@ -190,9 +204,22 @@ def write_scenario_toml(
         if planner_options:
             pairs = ", ".join(f"{_text(key)} = {json.dumps(value)}" for key, value in planner_options.items())
             lines.append(f"options = {{ {pairs} }}")
+    lines += _output_lines(outputs or {}, Path(path))
     kept = [line for line, after in zip(lines, [*lines[1:], "end"], strict=True) if line or after.startswith("[")]
     with new_file(path) as part:
         part.write_text("\n".join([*kept, ""]), encoding="utf-8")
+
+
+def _output_lines(outputs: dict[str, Any], path: Path) -> list[str]:
+    lines = []
+    for name, value in outputs.items():
+        if isinstance(value, float):
+            lines.append(f"{name} = {value!r}")
+            continue
+        beside = os.path.relpath(value, path.parent)
+        if Path(beside).parts[0] != "..":
+            lines.append(f"{name} = {_text(beside)}")
+    return ["", "[outputs]", *lines] if lines else []
 
 
 def _frame_lines(area: Area) -> list[str]:
