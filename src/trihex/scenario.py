@@ -16,6 +16,7 @@ from trihex.record import Record, read_only
 
 CROSSINGS = ("forbid", "allow")
 CORNERS = ("allow", "no-squeeze", "no-cut")
+_BLOCK = 1 << 24  # sites a kernel looks at in one call, even; Ctrl-C works in between
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,18 +105,20 @@ class Scenario(Record):
         layout, tessellation = self.area.layout, self.area.tessellation
         blocked = np.empty(layout.size, dtype=bool)
         kernels.fill_blocked(self.area.barriers, layout.origin, layout.pitch, blocked)
-        moves = np.empty(layout.size, dtype=np.uint16)
-        kernels.fill_moves(
-            blocked,
-            layout.origin,
-            layout.origin + layout.height * layout.pitch,
-            layout.offset_of_direction,
-            layout.vertex_of_direction,
-            layout.ring_of_vertex,
-            tessellation.edge_count,
-            CORNERS.index(self.corners),
-            moves,
-        )
+        moves = np.zeros(layout.size, dtype=np.uint16)
+        end = layout.origin + layout.height * layout.pitch
+        for start in range(layout.origin, end, _BLOCK):
+            kernels.fill_moves(
+                blocked,
+                start,
+                min(start + _BLOCK, end),
+                layout.offset_of_direction,
+                layout.vertex_of_direction,
+                layout.ring_of_vertex,
+                tessellation.edge_count,
+                CORNERS.index(self.corners),
+                moves,
+            )
         return read_only(moves)
 
     def with_robots(self, robots: Any, seed: int | None = None) -> Scenario:

@@ -16,7 +16,7 @@ from trihex.scenario import Scenario
 
 NOT_REACHED = 2**31 - 1
 _BUDGET = 1 << 16  # cells settled in one call of a kernel, about 1 ms
-_BLOCK = 1 << 24  # sites given their directions in one call, even
+_BLOCK = 1 << 24  # sites a kernel looks at in one call, even; Ctrl-C works in between
 _LEAST_LIST = 1 << 12
 
 
@@ -145,21 +145,49 @@ def make_n_scheme(
     """
     from trihex.kernels import fields as kernels
 
-    area, layout, tessellation = scenario.area, scenario.area.layout, scenario.area.tessellation
-    is_masked = scenario.corners != "allow" and tessellation.edge_count < tessellation.direction_count
-    table, direction, slots, first = make_front_table(
-        tessellation.step_of_direction,
-        layout.offset_of_direction,
-        tessellation.cost_of_direction,
-        tessellation.edge_count,
-        not is_masked,
-    )
-    cost = np.unique(tessellation.cost_of_direction)
-    moves = scenario.moves if is_masked else np.empty(0, dtype=np.uint16)
+    distance = _nothing_reached(scenario)
+    horizon = _settle(scenario, distance, robots_only, progress)
+    for start in range(0, distance.size, _BLOCK):
+        kernels.finish(distance[start : start + _BLOCK], horizon)
+    if progress is not None:
+        progress(scenario.area.free_count, scenario.area.free_count)
+    return NScheme(scenario, read_only(distance), horizon)
+
+
+def _nothing_reached(scenario: Scenario) -> NDArray[np.int32]:
+    """Return a padded array as the kernel wants it: 0 at destinations, `NOT_REACHED`, and -1 where nobody can go."""
+    from trihex.kernels import fields as kernels
+
+    layout = scenario.area.layout
     distance = np.empty(layout.size, dtype=np.int32)
-    kernels.prepare(area.barriers, layout.origin, layout.pitch, distance)
+    distance[: layout.origin] = distance[layout.origin + layout.height * layout.pitch :] = -1
+    rows = max(1, _BLOCK // layout.pitch)
+    for y in range(0, layout.height, rows):
+        barriers = scenario.area.barriers[y : y + rows]
+        kernels.prepare(barriers, layout.origin + y * layout.pitch, layout.pitch, distance)
+    distance[layout.cell_to_site(scenario.destinations)] = 0
+    return distance
+
+
+def _settle(
+    scenario: Scenario,
+    distance: NDArray[np.int32],
+    robots_only: bool,
+    progress: Callable[[int, int], None] | None,
+) -> int:
+    """Settle `distance`, all of it or until the robots' are known, and return the horizon."""
+    from trihex.kernels import fields as kernels
+
+    area, layout, tessellation = scenario.area, scenario.area.layout, scenario.area.tessellation
+    # Corner rules concern vertex moves alone; where there are none, all that a kernel need know is the barriers.
+    is_masked = scenario.corners != "allow" and tessellation.edge_count < tessellation.direction_count
+    moves = scenario.moves if is_masked else np.empty(0, dtype=np.uint16)
+    cost = tessellation.cost_of_direction
+    table, direction, slots, first = make_front_table(
+        tessellation.step_of_direction, layout.offset_of_direction, cost, tessellation.edge_count, not is_masked
+    )
+    cost = np.unique(cost)
     sites = layout.cell_to_site(scenario.destinations).astype(np.int64)
-    distance[sites] = 0
     entries = np.concatenate([sites[sites & 1 == o] + (row << 32) for o in (0, 1) for row in first[o]])
     lists = np.empty((3, max(_LEAST_LIST, 2 * entries.size)), dtype=np.uint64)
     lists[0, : entries.size] = entries
@@ -167,22 +195,21 @@ def make_n_scheme(
     state[kernels.COUNT], state[kernels.BUCKET_END] = entries.size, cost[0]
     waiting = layout.cell_to_site(scenario.robots)
     settle, done = kernels.make_settle(slots, is_masked), 0
-    while state[kernels.REASON] != kernels.DONE:
+    while True:
         settle(state, lists.reshape(-1), table, direction, cost, moves, distance, layout.pitch, _BUDGET)
+        if state[kernels.REASON] == kernels.DONE:
+            return NOT_REACHED
+        if state[kernels.REASON] == kernels.TOO_FAR:
+            raise ScenarioError(f"distances must stay below {kernels.FARTHEST}; a cell that can be reached is farther")
         if state[kernels.REASON] == kernels.LISTS_FULL:
             lists = np.concatenate([lists, np.empty_like(lists)], axis=1)
-        elif state[kernels.REASON] == kernels.TOO_FAR:
-            raise ScenarioError(f"distances must stay below {kernels.FARTHEST}; a reachable cell is farther away")
         if robots_only:
             waiting = waiting[distance[waiting] >= state[kernels.BUCKET_END]]
             if waiting.size == 0:
-                break
+                return int(state[kernels.BUCKET_END])
         if progress is not None:
             done = min(done + _BUDGET, area.free_count)
             progress(done, area.free_count)
-    horizon = NOT_REACHED if state[kernels.REASON] == kernels.DONE else int(state[kernels.BUCKET_END])
-    kernels.finish(distance, horizon)
-    return NScheme(scenario, read_only(distance), horizon)
 
 
 def make_d_scheme(n_scheme: NScheme) -> DScheme:

@@ -25,16 +25,14 @@ GO_ON, DONE, LISTS_FULL, TOO_FAR = 0, 1, 2, 3
 
 
 @njit(types.void(MASK, types.int64, types.int64, OUT_I32), cache=True, nogil=True)
-def prepare(barriers, origin, pitch, distance):
-    """Fill the padded `distance`: `NOT_REACHED` at free cells, -1 at barriers and in the padding."""
+def prepare(barriers, first, pitch, distance):
+    """Fill the rows of `barriers` from site `first` on: `NOT_REACHED` at free cells, -1 at barriers and the margin."""
     height, width = barriers.shape
-    distance[:origin] = -1
     for y in range(height):
-        row = distance[origin + y * pitch : origin + (y + 1) * pitch]
+        row = distance[first + y * pitch : first + (y + 1) * pitch]
         for x in range(width):
             row[x] = -1 if barriers[y, x] else NOT_REACHED
         row[width:] = -1
-    distance[origin + height * pitch :] = -1
 
 
 @njit(types.void(OUT_I32, types.int64), cache=True, nogil=True)
