@@ -150,20 +150,17 @@ def test_the_story(open_viewer, tmp_path, tessellation):
     assert f"{report.arrived_count} arrived" in shown.text(".sets")
     assert f"{grouped(plan.total_time)} spent, {grouped(plan.total_time)} at least in the end" in shown.text(".sofar")
 
-    # compare with the optimum
-    page.get_by_label("Planner beside it").select_option("optimal")
+    # compare with another planner, and with what no plan can beat
+    page.get_by_label("Planner beside it").select_option("greedy")
     shown.press("Compare")
-    shown.wait("app.runs[1] && !app.job && app.runs[0].summary.lower_bound_name === 'optimum'")
-    optimum = make_plan(scenario, "optimal").total_time
+    beside, bound = make_plan(scenario, "greedy"), th.make_lower_bound(th.make_n_scheme(scenario)).value
+    shown.wait(f"app.runs[1] && !app.job && app.runs.every(run => run.summary.lower_bound === {bound})")
     table = shown.table()
-    assert table["Total time"] == [grouped(plan.total_time), grouped(optimum)]
-    assert table["Lower bound"] == [f"{grouped(optimum)} (optimum)"] * 2
-    gap = 100 * (plan.total_time / optimum - 1)
-    assert table["Gap to the optimum"] == [f"{gap:.{2 if gap < 10 else 1}f} %", "0, proven"]
-    assert "proven optimal" in page.locator(".caption").nth(1).inner_text()
+    assert table["Total time"] == [grouped(plan.total_time), grouped(beside.total_time)]
+    assert all(cell.startswith(grouped(bound)) for cell in table["Lower bound"])
     show_step(shown, 5)
     shown.keep(f"story-{tessellation}-compare")
-    for pane, planner in ((0, plan), (1, make_plan(scenario, "optimal"))):
+    for pane, planner in ((0, plan), (1, beside)):
         there = next(c for step, c in enumerate(planner.cells_by_step()) if step == 5)
         colours = shown.colours(pane)
         seen = sum(is_near(colours, colour, 40).ravel() for colour in ROBOTS[:3]) > 0

@@ -86,9 +86,10 @@ def descend(
 
     ``cells[site]`` holds the best directions, whether the site is a destination, and whether a robot stands there.
     The `active` robots are `listed` in order of distance (rows: site, robot, distance, best directions), so that when
-    one is asked, all that might be in its way have moved or stayed. Each takes its first best direction that is free; the nearest of all
-    finds one unless another robot took it, so something moves in every step. A move from `first_vertex_move` on passes
-    a lattice vertex, stamped with the step; a destination takes `capacity` robots a step (0: any number).
+    one is asked, all that might be in its way have moved or stayed. Each takes its first best direction that is free;
+    the nearest of all finds one unless another robot took it, so something moves in every step. A move from
+    `first_vertex_move` on passes a lattice vertex, stamped with the step; a destination takes `capacity` robots a step
+    (0: any number).
 
     Robots that come nearer by the same amount, those that wait included, stay in order among themselves: they are put
     into one queue each, and the order of all costs one merge a step instead of a sort.

@@ -186,7 +186,7 @@ def _arcs(
 
 
 def _places(node: NDArray[np.int64], order: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Number the arcs of each node from 0, in ascending order of `order`."""
+    """Return the place of each arc among those of its node, in ascending order of `order`."""
     by_node = np.lexsort((order, node))
     counts = np.bincount(node)
     place = np.empty_like(node)
