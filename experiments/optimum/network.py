@@ -14,6 +14,7 @@ from trihex.scenario import Scenario
 from trihex.schemes import NOT_REACHED, NScheme
 
 OBJECTIVES = ("time", "steps")
+TO_GOAL = 16
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,9 +41,10 @@ class Network(Record):
         Least number of steps to a destination.
     value : ndarray of int32, shape (nodes,)
         Least cost to a destination, in units.
-    out_arcs, in_arcs : ndarray of int32, shape (nodes, most arcs, 3)
+    out_arcs, in_arcs : ndarray of int32, shape (nodes, most arcs, 4)
         Of each arc that leaves or enters a node: what to add to the index to get the other node (0: no more arcs), its
-        reduced cost, its place among the arcs of the other node. Arcs leave in descending order of reduced cost.
+        reduced cost, its place among the arcs of the other node (plus `TO_GOAL` where it leads to a destination), the
+        other node. Arcs leave in descending order of reduced cost.
     """
 
     scenario: Scenario
@@ -123,26 +125,20 @@ def make_network(n_scheme: NScheme, objective: str = "time") -> Network:
         unit,
         read_only(hops.astype(np.int32)),
         read_only((value // unit).astype(np.int32)),
-        _table(sites.size, tail, place_out, offset, reduced, place_in),
-        _table(sites.size, head, place_in, -offset, reduced, place_out),
+        _table(sites.size, tail, place_out, offset, reduced, place_in + TO_GOAL * (head >= first_goal), head),
+        _table(sites.size, head, place_in, -offset, reduced, place_out, tail),
     )
 
 
 def _hops(n_scheme: NScheme) -> NDArray[np.int32]:
     """Return the least number of steps from each site to a destination."""
-    from trihex.kernels.fields import spread
+    from trihex.kernels.flow_paths import fill_hops
 
-    area = n_scheme.scenario.area
-    hops = np.full(area.layout.size, NOT_REACHED, dtype=np.int32)
-    spread(
-        area.layout.cell_to_site(n_scheme.scenario.destinations),
-        area.layout.offset_of_direction,
-        np.ones(area.tessellation.direction_count, dtype=np.int32),
-        n_scheme.scenario.moves,
-        hops,
-        np.empty(area.free_count + 1, dtype=np.int32),
-        np.zeros(area.layout.size, dtype=np.uint16),
-    )
+    scenario = n_scheme.scenario
+    layout = scenario.area.layout
+    hops = np.full(layout.size, NOT_REACHED, dtype=np.int32)
+    queue = np.empty(scenario.area.free_count, dtype=np.int32)
+    fill_hops(layout.cell_to_site(scenario.destinations), layout.offset_of_direction, scenario.moves, hops, queue)
     return hops
 
 
