@@ -60,9 +60,9 @@ def plan_of(side, robots):
     return make_plan(th.Scenario(area, spots, th.random_robots(area, robots, 1, avoid=spots)), "greedy")
 
 
-def main():
+def main(options: list[str]) -> None:
     folder = Path(tempfile.mkdtemp())
-    maps = [Path(path) for path in sys.argv[1:]]
+    maps = [Path(path) for path in options]
     for path in maps:
         shutil.copy(path, folder)
     with sync_playwright() as playwright:
@@ -98,4 +98,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    main(sys.argv[1:])
