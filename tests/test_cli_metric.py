@@ -109,3 +109,22 @@ def test_a_scenario_must_not_write_elsewhere(house, tmp_path, output):
     (tmp_path / "s.toml").write_text((tmp_path / "s.toml").read_text() + f'[outputs]\nplan = "{output}"\n')
     done = run("plan", "s.toml")
     assert done.exit_code == 2 and "outputs.plan: must be a path beside the scenario or below it" in done.output
+
+
+def test_a_place_becomes_an_area_in_a_file_of_its_own(house, tmp_path):
+    assert run("convert", "house.yaml", "house.toml", *SIZE).exit_code == 0
+    assert run("show", "house.toml").output == run("show", "house.yaml", *SIZE).output
+    refused = run("convert", "house.yaml", "house.map", *SIZE)
+    assert refused.exit_code == 2 and "which this format cannot carry" in refused.output
+    done = run("plan", "house.toml", *PLACES, "--robots", 5)
+    assert done.exit_code == 0 and "5 of 5 robots arrive" in done.output
+
+
+def test_starts_of_scen_become_csv(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "a.map").write_text("type octile\nheight 1\nwidth 4\nmap\n....\n")
+    (tmp_path / "a.scen").write_text("version 1\n0\ta.map\t4\t1\t3\t0\t1\t0\t2\n")
+    assert run("convert", "a.scen", "a.csv", "--area", "a.map").exit_code == 0
+    assert (tmp_path / "a.csv").read_text() == "x,y\n3,0\n"
+    refused = run("convert", "a.scen", "b.csv")
+    assert refused.exit_code == 2 and "a.scen holds starts in an area: add --area AREA" in refused.output

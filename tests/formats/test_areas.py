@@ -14,7 +14,7 @@ def folder(tmp_path_factory):
     return tmp_path_factory.mktemp("areas")
 
 
-@pytest.mark.parametrize("name", ["area.map", "area.txt"])
+@pytest.mark.parametrize("name", ["area.map", "area.txt", "area.toml"])
 @settings(deadline=None, max_examples=50)
 @given(area=areas())
 def test_area_round_trip(folder, name, area):

@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from trihex.cli.options import PATH, area_options, read_judged, rule_options, wrong_use
+from trihex.cli.options import PATH, RULES, area_options, read_described, read_judged, rule_options, wrong_use
 from trihex.cli.outputs import check_outputs
 from trihex.cli.progress import bar
 from trihex.cli.types import Metres
@@ -16,7 +16,7 @@ from trihex.cli.types import Metres
 @click.command("convert")
 @click.argument("source", type=PATH, metavar="IN")
 @click.argument("target", type=PATH, metavar="OUT")
-@click.option("--area", type=PATH, metavar="AREA", help="The area of a plan in .csv.")
+@click.option("--area", type=PATH, metavar="AREA", help="The area of a plan or of starts in .csv.")
 @area_options
 @rule_options
 @click.option("--waypoints", is_flag=True, help="Where each robot is when, in metres and seconds, instead of its plan.")
@@ -26,15 +26,16 @@ def command(source: Path, target: Path, area: Path | None, waypoints: bool, spee
 
     Plans: .csv, .npz and .parquet, .txt for mapf-visualizer; a plan in .csv or .parquet needs --area and the options
     that it was made with. Waypoints of a plan: .csv (with --waypoints), .yaml, .json, .geojson, .sqlite. Areas: .map,
-    .txt and images. Scenarios: .toml and .txt. What a format cannot carry is refused.
+    .txt, images and .toml. Scenarios: .toml and .txt. Starts: .csv. What a format cannot carry is refused.
     """
     from trihex.formats import PLAN_SUFFIXES, WAYPOINT_SUFFIXES, write_plan, write_waypoints
     from trihex.formats.files import read_bytes
     from trihex.formats.recognise import format_of
 
     form = format_of(read_bytes(source), source)
-    if form == "starts":
-        raise wrong_use(f"{source} holds starts, which have no other format")
+    if form in ("starts", "scen"):
+        _convert_starts(source, target, area, options)
+        return
     if form in ("npz", "plan", "parquet"):
         if waypoints:
             check_outputs((target, WAYPOINT_SUFFIXES, "waypoints"))
@@ -49,17 +50,27 @@ def command(source: Path, target: Path, area: Path | None, waypoints: bool, spee
         return
     if area is not None or waypoints:
         raise wrong_use(f"--{'area' if area else 'waypoints'} is for plans; {source} holds none")
-    for name, value in options.items():
-        if value not in (None, ()):
+    for name in RULES:
+        if options[name] not in (None, ()):
             raise wrong_use(f"--{name.replace('_', '-')} is for plans; {source} holds none")
-    _convert_area(source, target)
+    _convert_area(source, target, options)
 
 
-def _convert_area(source: Path, target: Path) -> None:
-    from trihex.formats import AREA_SUFFIXES, SCENARIO_SUFFIXES, read_draft, write_area, write_scenario
+def _convert_starts(source: Path, target: Path, area: Path | None, options: dict[str, Any]) -> None:
+    from trihex.formats import read_starts, write_starts
+
+    check_outputs((target, (".csv",), "starts"))
+    if area is None:
+        raise wrong_use(f"{source} holds starts in an area: add --area AREA")
+    own = read_described(area, options).area
+    write_starts(own, read_starts(source, own), target)
+
+
+def _convert_area(source: Path, target: Path, options: dict[str, Any]) -> None:
+    from trihex.formats import AREA_SUFFIXES, SCENARIO_SUFFIXES, write_area, write_scenario
     from trihex.formats.letters import lost_in_letters
 
-    draft = read_draft(source)
+    draft = read_described(source, options)
     is_area = draft.destinations is None and draft.robots is None and draft.random_count is None
     check_outputs((target, AREA_SUFFIXES if is_area else SCENARIO_SUFFIXES, "an area" if is_area else "a scenario"))
     if is_area:
@@ -68,4 +79,6 @@ def _convert_area(source: Path, target: Path) -> None:
     scenario = draft.complete()
     if target.suffix.lower() == ".txt" and (lost := lost_in_letters(scenario)):
         raise wrong_use(f"letters cannot carry {', '.join(lost)}, as {source} has")
-    write_scenario(scenario, target, planner=draft.planner or "", planner_options=draft.planner_options)
+    write_scenario(
+        scenario, target, planner=draft.planner or "", planner_options=draft.planner_options, outputs=draft.outputs
+    )

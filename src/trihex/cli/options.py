@@ -21,7 +21,8 @@ Command = TypeVar("Command", bound=Callable[..., Any])
 PATH = click.Path(path_type=Path)
 
 
-# What `formats.options.AreaOptions` takes besides the tessellation.
+# What `rule_options` adds, and what `formats.options.AreaOptions` takes besides the tessellation.
+RULES = ("waiting_cost", "crossing", "corners", "destination_capacity", "destination")
 _PLACE = ("cell_size", "robot_radius", "unknown", "threshold", "invert", "resolution")
 
 

@@ -30,7 +30,7 @@ from trihex.plan import Plan
 from trihex.scenario import Scenario
 from trihex.tessellation import Tessellation
 
-AREA_SUFFIXES = (".map", ".txt", *IMAGE_SUFFIXES)
+AREA_SUFFIXES = (".map", ".txt", ".toml", *IMAGE_SUFFIXES)
 PLAN_SUFFIXES = (".csv", ".npz", ".parquet", ".txt")
 WAYPOINT_SUFFIXES = (".csv", ".yaml", ".json", ".geojson", ".sqlite")
 SCENARIO_SUFFIXES = (".toml", ".txt")
@@ -165,14 +165,19 @@ def read_scenario(
 
 
 def write_area(area: Area, path: str | os.PathLike[str]) -> None:
-    """Write the barriers of an area as MovingAI ``.map``, letters ``.txt`` or an image; none keeps the tessellation.
+    """Write an area as ``.toml``, or its barriers alone as MovingAI ``.map``, letters ``.txt`` or an image.
 
     Raises
     ------
     FormatError
-        If the area has a frame.
+        If the area has a frame and the format is not ``.toml``.
     """
     suffix = suffix_of(path, AREA_SUFFIXES, "an area")
+    if suffix == ".toml":
+        from trihex.formats.scenario_toml import write_area_toml
+
+        write_area_toml(area, path)
+        return
     refuse_frame(area.frame, path)
     if suffix in IMAGE_SUFFIXES:
         write_image(area, path)

@@ -174,20 +174,11 @@ def write_scenario_toml(
 
     `outputs` are paths by name, and `speed`; paths that do not lie beside the scenario or below it are left out.
     """
-    area, tessellation = scenario.area, scenario.area.tessellation
-    rows = ["".join("B" if barrier else "." for barrier in row) for row in area.barriers.tolist()]
+    area = scenario.area
     lines = [
         f"destinations = {_cells(area, scenario.destinations)}",
         "",
-        "[area]",
-        f"name = {_text(area.name)}" if area.name else "",
-        f"tessellation = {_text(tessellation.name)}",
-        f"neighbourhood = {_text(tessellation.neighbourhood)}",
-        f"costs = {_text(tessellation.costs)}",
-        "rows = [",
-        *(f"  {_text(row)}," for row in rows),
-        "]",
-        *_frame_lines(area),
+        *_area_lines(area),
         "",
         "[rules]",
         f"waiting_cost = {scenario.waiting_cost}",
@@ -205,9 +196,34 @@ def write_scenario_toml(
             pairs = ", ".join(f"{_text(key)} = {json.dumps(value)}" for key, value in planner_options.items())
             lines.append(f"options = {{ {pairs} }}")
     lines += _output_lines(outputs or {}, Path(path))
+    _write(lines, path)
+
+
+def write_area_toml(area: Area, path: str | os.PathLike[str]) -> None:
+    """Write an area as a scenario file that names no destinations and no robots."""
+    _write(_area_lines(area), path)
+
+
+def _write(lines: list[str], path: str | os.PathLike[str]) -> None:
+    """Write lines; of empty ones only those before a table."""
     kept = [line for line, after in zip(lines, [*lines[1:], "end"], strict=True) if line or after.startswith("[")]
     with new_file(path) as part:
         part.write_text("\n".join([*kept, ""]), encoding="utf-8")
+
+
+def _area_lines(area: Area) -> list[str]:
+    rows = ["".join("B" if barrier else "." for barrier in row) for row in area.barriers.tolist()]
+    return [
+        "[area]",
+        f"name = {_text(area.name)}" if area.name else "",
+        f"tessellation = {_text(area.tessellation.name)}",
+        f"neighbourhood = {_text(area.tessellation.neighbourhood)}",
+        f"costs = {_text(area.tessellation.costs)}",
+        "rows = [",
+        *(f"  {_text(row)}," for row in rows),
+        "]",
+        *_frame_lines(area),
+    ]
 
 
 def _output_lines(outputs: dict[str, Any], path: Path) -> list[str]:
