@@ -3,8 +3,14 @@
 from __future__ import annotations
 
 import re
+import zipfile
 from collections.abc import Callable, Sequence
+from contextlib import suppress
+from io import BytesIO
 from random import Random
+from zlib import crc32
+
+from fuzz.bombs import bomb_like
 
 _NUMBERS = [
     *(b"0", b"-1", b"1", b"2147483648", b"-9223372036854775809", b"18446744073709551616", b"9" * 400, b"1e308"),
@@ -105,14 +111,53 @@ def shuffle_lines(data: bytes, random: Random, _: Sequence[bytes]) -> bytes:
     return b"\n".join(lines)
 
 
+def inside(data: bytes, random: Random, others: Sequence[bytes]) -> bytes:
+    """Change what lies within an archive or a PNG, and leave its checksums right; else set bytes."""
+    change = random.choice((flip_bits, set_bytes, integer, truncate))
+    if data.startswith(b"PK"):
+        with suppress(Exception):  # damaged before
+            return _repacked(data, random, lambda part: change(part, random, others))
+    if data.startswith(b"\x89PNG") and (chunks := _chunks_of(data)):
+        at = random.randrange(len(chunks))
+        chunks[at] = (chunks[at][0], change(chunks[at][1] or b"\0", random, others))
+        return data[:8] + b"".join(
+            len(body).to_bytes(4) + kind + body + crc32(kind + body).to_bytes(4) for kind, body in chunks
+        )
+    return set_bytes(data, random, others)
+
+
+def _repacked(data: bytes, random: Random, change: Callable[[bytes], bytes]) -> bytes:
+    """Return an archive with one of its entries changed."""
+    out = BytesIO()
+    with zipfile.ZipFile(BytesIO(data)) as old, zipfile.ZipFile(out, "w") as new:
+        names = old.namelist()
+        chosen = random.choice(names)
+        for name in names:
+            content = old.read(name)
+            new.writestr(zipfile.ZipInfo(name), change(content) if name == chosen else content)
+    return out.getvalue()
+
+
+def _chunks_of(png: bytes) -> list[tuple[bytes, bytes]]:
+    """Return kind and content of the chunks of a PNG, as far as they are whole."""
+    chunks, at = [], 8
+    while at + 12 <= len(png):
+        size = int.from_bytes(png[at : at + 4])
+        chunks.append((png[at + 4 : at + 8], png[at + 8 : at + 8 + size]))
+        at += 12 + size
+    return chunks
+
+
 MUTATIONS: tuple[Callable[[bytes, Random, Sequence[bytes]], bytes], ...] = (
     *(flip_bits, set_bytes, truncate, repeat, delete, number, number, number, integer, token, nest, recode, splice),
-    shuffle_lines,
+    *(shuffle_lines, inside, inside),
 )
 
 
-def mutate(data: bytes, random: Random, others: Sequence[bytes]) -> bytes:
-    """Return `data` after one to three mutations, at most 2 MB of it."""
+def mutate(data: bytes, random: Random, others: Sequence[bytes], bombs: float = 0.0) -> bytes:
+    """Return `data` after one to three mutations, at most 2 MB of it; by the share of `bombs` a bomb of its kind."""
+    if random.random() < bombs and (choices := bomb_like(data)):
+        return random.choice(choices)
     for _ in range(random.choice((1, 1, 1, 2, 3))):
         if data:
             data = random.choice(MUTATIONS)(data, random, others)[:2_000_000]

@@ -10,7 +10,10 @@ import numpy as np
 from PIL import Image
 
 from trihex import Area, Frame, Scenario, Tessellation, write_area, write_plan, write_scenario
+from trihex.formats.draft import draft_of
 from trihex.plan import plan_from_lists
+from trihex.viewer.bundle import encode
+from trihex.viewer.document import document_of
 
 ROWS = ["...B....", ".B....B.", "........", "..BB...."]
 YAML = """image: house.pgm
@@ -91,6 +94,8 @@ def make_seeds() -> dict[str, bytes]:
         "yard.scen": b"version 1\n0\tyard.map\t8\t4\t1\t0\t7\t0\t6.5\n1\tyard.map\t8\t4\t4\t2\t7\t0\t3.5\n",
         "letters.txt": b"a..B...D\n.B.b..B.\n....D...\n",
     }
+    document, arrays = document_of(draft_of(scenario))
+    seeds["request.bundle"] = encode({"op": "plan", "planner": "greedy", "options": {}, "document": document}, arrays)
     with TemporaryDirectory() as name:
         folder = Path(name)
         plain = Area(tessellation, area.barriers, "yard")

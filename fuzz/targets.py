@@ -1,15 +1,25 @@
-"""Targets: what is done with a damaged file, and what may come of it."""
+"""Targets: what is done with a damaged file, and what may come of it.
+
+What was read is written again and read once more: a file out is whole, or there is none.
+"""
 
 from __future__ import annotations
 
 import traceback
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
+from typing import NamedTuple
+from zlib import crc32
 
 import numpy as np
 
-from trihex import Area, Frame, Scenario, TrihexError, audit_plan, read_plan, read_starts
+from trihex import Area, Frame, Scenario, TrihexError, audit_plan, read_plan, read_starts, write_area, write_plan
 from trihex.formats import read_draft
+from trihex.formats.draft import Draft
+from trihex.plan import Plan
+from trihex.viewer.bundle import decode
+from trihex.viewer.desk import Desk
 
 _YARD = Area("square", np.zeros((4, 8)), frame=Frame(0.5))
 _SCENARIO = Scenario(_YARD, [(7, 0), (0, 3)])
@@ -19,26 +29,31 @@ _MOST_CELLS = 300_000
 
 def read_place(path: Path) -> None:
     """Read a place in metres."""
-    draft = read_draft(path, "hexagonal", cell_size=0.5, robot_radius=0.05, resolution=None)
-    _complete(draft)
+    _use(read_draft(path, "hexagonal", cell_size=0.5, robot_radius=0.05, resolution=None), path)
 
 
 def read_image(path: Path) -> None:
     """Read an image, as cells and as squares in metres."""
-    read_draft(path)
-    read_draft(path, "triangular", cell_size=0.5, robot_radius=0.05, resolution=0.1)
+    _use(read_draft(path), path)
+    _use(read_draft(path, "triangular", cell_size=0.5, robot_radius=0.05, resolution=0.1), path)
 
 
 def read_any(path: Path) -> None:
     """Read whatever it is."""
-    _complete(read_draft(path))
+    _use(read_draft(path), path)
 
 
 def read_a_plan(path: Path) -> None:
-    """Read a plan and judge it, since what was read has to be of use."""
+    """Read a plan, judge it and write it."""
     plan = read_plan(path, _SCENARIO)
     if plan.actions.size < _MOST_CELLS:
         audit_plan(plan)
+        copy = _copy(plan, path, ("csv", "npz", "parquet"), write_plan)
+        try:
+            again = read_plan(copy, plan.scenario)
+        finally:
+            copy.unlink()
+        assert np.array_equal(again.actions, plan.actions), f"{copy.name} is another plan"
 
 
 def read_some_starts(path: Path) -> None:
@@ -46,10 +61,44 @@ def read_some_starts(path: Path) -> None:
     read_starts(path, _YARD)
 
 
-def _complete(draft: object) -> None:
-    area = draft.area  # type: ignore[attr-defined]
-    if draft.destinations is not None and area.cell_count < _MOST_CELLS:  # type: ignore[attr-defined]
-        draft.complete()  # type: ignore[attr-defined]
+def answer_a_request(path: Path) -> None:
+    """Answer what a page might ask for."""
+    frames: list[bytes] = []
+    desk().answer(path.read_bytes(), frames.append)
+    *_, last = (decode(frame).header for frame in frames)
+    message = last.get("message", "none")
+    assert last["kind"] in ("result", "error"), last["kind"]
+    assert "fault of trihex" not in message, message
+    if last["kind"] == "error":
+        raise TrihexError(message)
+
+
+@cache
+def desk() -> Desk:
+    """Return a desk without a folder: it saves nothing."""
+    return Desk()
+
+
+def _use(draft: Draft, path: Path) -> None:
+    """Make the scenario, if there is one, and write the area; what was read has to be of use."""
+    area = draft.area
+    if area.cell_count > _MOST_CELLS:
+        return
+    if draft.destinations is not None:
+        draft.complete()
+    copy = _copy(area, path, ("toml",) if area.frame else ("toml", "map", "txt", "png", "pgm", "bmp"), write_area)
+    try:
+        again = read_draft(copy, None if copy.suffix == ".toml" else area.tessellation).area
+    finally:
+        copy.unlink()
+    assert np.array_equal(again.barriers, area.barriers), f"{copy.name} has other barriers"
+
+
+def _copy(record: Area | Plan, path: Path, suffixes: tuple[str, ...], write: Callable[..., None]) -> Path:
+    """Write a record in the format that the content of `path` happens to choose."""
+    copy = path.with_name("copy." + suffixes[crc32(path.read_bytes()) % len(suffixes)])
+    write(record, copy)
+    return copy
 
 
 TARGETS: dict[str, Callable[[Path], None]] = {
@@ -69,11 +118,19 @@ TARGETS: dict[str, Callable[[Path], None]] = {
     "plan.parquet": read_a_plan,
     **{f"house.{suffix}": read_image for suffix in ("pgm", "png", "bmp", "gif", "jpeg")},
     "colours.png": read_image,
+    "request.bundle": answer_a_request,
 }
 
 
-def fault_of(target: Callable[[Path], None], path: Path) -> str | None:
-    """Return what is wrong with how `target` takes the file at `path`, None if nothing is.
+class Outcome(NamedTuple):
+    """What came of a file: "read", "refused" with a message, or "fault" with what is wrong."""
+
+    word: str
+    text: str = ""
+
+
+def outcome_of(target: Callable[[Path], None], path: Path) -> Outcome:
+    """Return how `target` takes the file at `path`.
 
     A reader may return, or raise an error of trihex or of the operating system with a message that a person can read.
     """
@@ -82,10 +139,12 @@ def fault_of(target: Callable[[Path], None], path: Path) -> str | None:
     except TrihexError as error:
         message = str(error)
         if not message or len(message) > 2000 or (type(error).__name__ != "FormatError" and "\n" in message):
-            return f"a message of {len(message)} letters: {message[:200]!r}"
+            return Outcome("fault", f"a message of {len(message)} letters: {message[:200]!r}")
+        return Outcome("refused", message)
     except OSError as error:
         if error.filename is None:
-            return f"an OSError without a file name: {error!r}"
+            return Outcome("fault", f"an OSError without a file name: {error!r}")
+        return Outcome("refused", str(error))
     except Exception:
-        return traceback.format_exc()
-    return None
+        return Outcome("fault", traceback.format_exc())
+    return Outcome("read")

@@ -6,7 +6,7 @@ from random import Random
 import pytest
 from fuzz.mutations import MUTATIONS, mutate
 from fuzz.seeds import make_seeds
-from fuzz.targets import TARGETS, fault_of
+from fuzz.targets import TARGETS, outcome_of
 
 CORPUS = Path(__file__).parents[1] / "fuzz" / "corpus"
 
@@ -27,7 +27,7 @@ def folder(tmp_path, seeds):
 def test_what_was_found_is_refused_or_read(folder, path):
     bad = folder / ("bad" + Path(path.parent.name).suffix)
     bad.write_bytes(path.read_bytes())
-    assert fault_of(TARGETS[path.parent.name], bad) is None
+    assert outcome_of(TARGETS[path.parent.name], bad).word != "fault"
 
 
 @pytest.mark.parametrize("name", TARGETS)
@@ -39,7 +39,8 @@ def test_damaged_files_are_refused_or_read(folder, seeds, name):
     for number in range(30):
         damaged = mutate(seeds[name], Random(f"test/{name}/{number}"), list(seeds.values()))
         good.write_bytes(damaged[:20_000])
-        assert fault_of(TARGETS[name], good) is None, f"file {number}"
+        outcome = outcome_of(TARGETS[name], good)
+        assert outcome.word != "fault", f"file {number}: {outcome.text}"
     assert sorted(path.name for path in folder.iterdir()) == before
 
 
@@ -60,7 +61,7 @@ def test_links_and_devices_are_refused_with_their_name(folder, seeds, kind, name
         target = folder / "really"
         target.write_bytes(seeds[name])
     bad.symlink_to(target)
-    assert fault_of(TARGETS[name], bad) is None
+    assert outcome_of(TARGETS[name], bad).word != "fault"
     if kind != "link":
         with pytest.raises((OSError, ValueError), match="bad"):
             TARGETS[name](bad)

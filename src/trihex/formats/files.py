@@ -30,7 +30,11 @@ def read_bytes(path: str | os.PathLike[str], limit: int = MAX_BYTES) -> bytes:
         if not (stat.S_ISREG(status.st_mode) or stat.S_ISFIFO(status.st_mode)):
             raise FormatError(f"{path}: must be a file or a pipe, not a device")
         # The size is asked first, so that a huge file costs nothing; a pipe has none.
-        content = b"" if status.st_size > limit else file.read(limit + 1)
+        try:
+            content = b"" if status.st_size > limit else file.read(limit + 1)
+        except OSError as error:  # tell of the file
+            error.filename = str(path)
+            raise
     if status.st_size > limit or len(content) > limit:
         raise FormatError(f"{path}: must be at most {limit} bytes long, not {max(status.st_size, len(content))}")
     if not content:
