@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import re
-import tomllib
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -15,26 +13,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.area import Area, cells_from
-from trihex.errors import FormatError, ScenarioError, TrihexError
+from trihex.errors import ScenarioError, TrihexError
 from trihex.formats.draft import Draft
-from trihex.formats.files import check_text, new_file, read_bytes
+from trihex.formats.files import new_file, read_bytes
 from trihex.formats.letters import parse_letters
 from trihex.formats.options import AreaOptions
-from trihex.formats.scenario_schema import AreaTable, ScenarioTable, check_document
+from trihex.formats.scenario_schema import AreaTable, ScenarioTable
+from trihex.formats.schema import check_document
 from trihex.formats.starts import read_starts
+from trihex.formats.toml import MAX_BYTES, complaint, parse_toml
 from trihex.frame import Frame
 from trihex.scenario import Scenario
 from trihex.tessellation import Tessellation
 
 Result = TypeVar("Result")
-MAX_BYTES = 2**26  # tomllib takes some 30 times as much while it reads
-# What is not closed ends with the file or the line, so that each byte is looked at once.
-_QUOTED = re.compile(
-    rb""" \"{3}.*?(?:\"{3}|\Z) | '{3}.*?(?:'{3}|\Z) | "(?:\\.|[^"\\\n])*"? | '[^'\n]*'? | \#[^\n]* """,
-    re.DOTALL | re.VERBOSE,
-)
-_DEEPEST = 50
-_MOST_MISTAKES = 50
 
 
 def read_scenario_toml(
@@ -60,29 +52,13 @@ def read_scenario_toml(
     OSError
         If the file cannot be read.
     """
-    content = read_bytes(path, MAX_BYTES) if content is None else content
-    if len(content) > MAX_BYTES:
-        raise FormatError(f"{path}: must be at most {MAX_BYTES} bytes long, not {len(content)}")
-    text = check_text(content, path)
-    # A key of 100 000 parts takes tomllib 6 GB and minutes, because it keeps each beginning of it.
-    if b"." * _DEEPEST in re.sub(rb"[\w \t-]+", b"", _QUOTED.sub(b"", text)):
-        raise FormatError(f"{path}: is nested too deeply")
-    try:
-        document = tomllib.loads(text.decode())
-    except RecursionError:
-        raise FormatError(f"{path}: is nested too deeply") from None
-    except FormatError:
-        raise
-    except ValueError as error:
-        raise FormatError(f"{path}: is no TOML: {error}") from None
-    table, mistakes = check_document(document)
+    document = parse_toml(read_bytes(path, MAX_BYTES) if content is None else content, path)
+    table, mistakes = check_document(ScenarioTable, document)
     if table is not None and not mistakes:
         draft = _draft_of(table, Path(path), read_area_draft, mistakes)
         if draft is not None and not mistakes:
             return draft
-    if len(mistakes) > _MOST_MISTAKES:
-        mistakes[_MOST_MISTAKES:] = [f"and {len(mistakes) - _MOST_MISTAKES} more mistakes"]
-    raise FormatError("\n".join(f"{path}: {mistake}" for mistake in mistakes))
+    raise complaint(path, mistakes)
 
 
 def _draft_of(
