@@ -150,6 +150,9 @@ def test_worlds_that_cannot_be_covered_are_refused():
         Covering("hexagonal", 0.5, 0.15)
     with pytest.raises(th.TooLargeError, match=r"cell_size must be at least 0\.01 metres for a world of 50 by 40"):
         cover_raster(np.zeros((40, 50)), Covering("hexagonal", 0.001), resolution=1.0)
+    strip = shapely.box(0, 0, 1e8, 1e-6)  # hardly any area, and yet hundreds of millions of columns
+    with pytest.raises(th.TooLargeError, match=r"cell_size must be at least 24 metres for a world of 1e\+08 by 1e-06"):
+        cover_polygons(strip, Covering("hexagonal", 0.5))
     with pytest.raises(th.AreaError, match="at least one square"):
         cover_raster(np.zeros((0, 5)), Covering("hexagonal", 1.0), resolution=1.0)
     with pytest.raises(th.AreaError, match="their area is 0"):

@@ -198,6 +198,13 @@ def test_files_within_the_folder_may_name_each_other(viewing, tmp_path):
     assert ask(viewing, {"op": "files"}).header["files"] == ["a.toml", "maps/a.map"]
 
 
+def test_files_that_name_themselves_and_links_in_a_ring_end_with_a_message(viewing, tmp_path):
+    (tmp_path / "folder/ring.map").symlink_to("ring.map")
+    assert "ring.map" in refusal(viewing, {"op": "open", "name": "ring.map"})
+    (tmp_path / "folder/self.toml").write_text('[area]\npath = "self.toml"')
+    assert "must hold an area, not scenario" in refusal(viewing, {"op": "open", "name": "self.toml"})
+
+
 def test_a_file_is_not_replaced_unasked(viewing, tmp_path):
     document = document_of(th.formats.draft.Draft(th.Area("square", [[0, 1]])))
     wish = {"op": "save", "what": "area", "name": "a.map", "in_folder": True, "document": document.header}

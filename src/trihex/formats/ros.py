@@ -39,7 +39,7 @@ def parse_ros(content: bytes, path: str | os.PathLike[str], options: AreaOptions
     OSError
         If the image cannot be read.
     """
-    entries = _parse_yaml(check_text(content, path).decode(), path)
+    entries = parse_yaml(check_text(content, path).decode(), path)
     resolution = _number(entries, "resolution", path)
     if not 1e-9 <= resolution <= 1e9:
         raise FormatError(f"{path}: resolution must be between 1e-9 and 1e9 metres, not {resolution:g}")
@@ -91,7 +91,7 @@ def _states(
     return occupied, free
 
 
-def _parse_yaml(text: str, path: object) -> dict[str, str | list[str]]:
+def parse_yaml(text: str, path: object) -> dict[str, str | list[str]]:
     """Return the keys of a flat YAML file, with a text or a list of texts each: all that map files use.
 
     A YAML library reads ten times as much, and `no`, `010` and `1e3` as something else than they look.

@@ -32,7 +32,7 @@ class FrameHeader(_Strict):
     """The frame of an area in metres."""
 
     cell_size: _Finite
-    origin: list[_Finite]
+    origin: Annotated[list[_Finite], Field(min_length=2, max_length=2)]
     yaw: _Finite
     robot_radius: _Finite
 
@@ -128,7 +128,7 @@ def draft_of_document(header: Any, arrays: dict[str, NDArray[Any]]) -> Draft:
     tessellation = Tessellation(parsed.tessellation, parsed.neighbourhood, parsed.costs)
     frame = None
     if parsed.frame is not None:
-        x, y = parsed.frame.origin if len(parsed.frame.origin) == 2 else (0.0, 0.0)
+        x, y = parsed.frame.origin
         frame = Frame(parsed.frame.cell_size, (x, y), parsed.frame.yaw, parsed.frame.robot_radius)
     return Draft(
         Area(tessellation, barriers, parsed.name, frame),

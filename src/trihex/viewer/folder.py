@@ -11,7 +11,7 @@ from typing import Any
 from trihex.errors import FormatError
 from trihex.formats.files import MAX_BYTES, check_text, read_bytes
 from trihex.formats.recognise import format_of
-from trihex.formats.ros import _parse_yaml
+from trihex.formats.ros import parse_yaml
 
 SUFFIXES = (
     *(".map", ".txt", ".toml", ".npz", ".csv", ".parquet", ".scen"),
@@ -35,7 +35,7 @@ class Folder:
     """
 
     def __init__(self, root: str | os.PathLike[str]) -> None:
-        self.root = Path(root).resolve(strict=True)
+        self.root = Path(os.path.realpath(root, strict=True))
 
     def resolve(self, name: str, base: Path | None = None) -> Path:
         """Return the path of the file called `name`, relative to `base` or the folder itself; it need not exist.
@@ -47,7 +47,7 @@ class Folder:
         """
         if not name or "\0" in name or Path(name).is_absolute():
             raise FormatError(f"a file must be named relative to the folder of the viewer, not {name!r:.120}")
-        path = ((base or self.root) / name).resolve()
+        path = Path(os.path.realpath((base or self.root) / name))  # Path.resolve raises RuntimeError at a loop
         if not path.is_relative_to(self.root):
             raise FormatError(f"a file must lie in the folder of the viewer, not at {name!r:.120}")
         return path
@@ -63,8 +63,12 @@ class Folder:
             If the file cannot be read.
         """
         path = self.resolve(name)
-        for other in references_of(path):
-            self.find(os.path.relpath(self.resolve(other, path.parent), self.root))
+        found, waiting = {path}, [path]
+        while waiting:
+            one = waiting.pop()
+            others = {self.resolve(other, one.parent) for other in references_of(one)} - found
+            found |= others
+            waiting += others
         return path
 
     def names(self) -> list[str]:
@@ -91,7 +95,7 @@ def references_of(path: Path) -> list[str]:
     form = format_of(content, path)
     names: list[Any] = []
     if form == "ros":
-        names = [_parse_yaml(check_text(content, path).decode(), path).get("image")]
+        names = [parse_yaml(check_text(content, path).decode(), path).get("image")]
     elif form == "scenario":
         try:
             table = tomllib.loads(check_text(content, path).decode())
