@@ -48,7 +48,7 @@ def work(first: int, last: int, options: argparse.Namespace) -> None:
         random = Random(f"{options.seed}/{number}")
         name = names[number % len(names)]
         path = _put(folder, name, mutate(seeds[name], random, list(seeds.values()), _BOMBS))
-        if random.random() < _LINKS:
+        if random.random() < _LINKS and not name.endswith(".bundle"):  # requests are no files
             _link(path, random)
         print(f"at {number} {name}", flush=True)
         begin = time.process_time()
