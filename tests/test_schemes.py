@@ -136,6 +136,7 @@ def test_kernels_may_stop_and_go_on_anywhere(tessellation, corners, monkeypatch)
         robots = th.random_robots(scenario.area, 2, seed=budget)
         whole = th.make_n_scheme(scenario)
         monkeypatch.setattr("trihex.schemes._BUDGET", budget)
+        monkeypatch.setattr("trihex.settling._BUDGET", budget)
         assert th.make_n_scheme(scenario) == whole
         assert th.make_n_scheme(scenario).generations == whole.generations
         some = th.make_n_scheme(scenario.with_robots(robots), robots_only=True)

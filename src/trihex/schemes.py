@@ -11,15 +11,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from trihex.area import cells_from
 from trihex.errors import ScenarioError
-from trihex.kernels.fields_table import make_front_table
 from trihex.living import LivingField
 from trihex.record import Record, read_only
 from trihex.scenario import Scenario
+from trihex.settling import NOT_REACHED as NOT_REACHED  # users find it here
+from trihex.settling import settle
 
-NOT_REACHED = 2**31 - 1
 _BUDGET = 1 << 16  # cells settled in one call of a kernel, about 1 ms
 _BLOCK = 1 << 24  # sites a kernel looks at in one call, even; Ctrl-C works in between
-_LEAST_LIST = 1 << 12
 
 
 @dataclass(frozen=True, eq=False)
@@ -212,40 +211,22 @@ def _settle(
     progress: Callable[[int, int], None] | None,
 ) -> int:
     """Settle `distance`, all of it or until the robots' are known, and return the horizon."""
-    from trihex.kernels import fields as kernels
-
     area, layout, tessellation = scenario.area, scenario.area.layout, scenario.area.tessellation
     # Corner rules concern vertex moves alone; where there are none, all that a kernel need know is the barriers.
     is_masked = scenario.corners != "allow" and tessellation.edge_count < tessellation.direction_count
-    moves = scenario.moves if is_masked else np.empty(0, dtype=np.uint16)
-    cost = tessellation.cost_of_direction
-    table, direction, slots, first = make_front_table(
-        tessellation.step_of_direction, layout.offset_of_direction, cost, tessellation.edge_count, not is_masked
-    )
-    cost = np.unique(cost)
-    sites = layout.cell_to_site(scenario.destinations).astype(np.int64)
-    entries = np.concatenate([sites[sites & 1 == o] + (row << 32) for o in (0, 1) for row in first[o]])
-    lists = np.empty((3, max(_LEAST_LIST, 2 * entries.size)), dtype=np.uint64)
-    lists[0, : entries.size] = entries
-    state = np.zeros(kernels.STATE_SIZE, dtype=np.int64)
-    state[kernels.COUNT], state[kernels.BUCKET_END] = entries.size, cost[0]
-    waiting = layout.cell_to_site(scenario.robots)
-    settle, done = kernels.make_settle(slots, is_masked), 0
-    while True:
-        settle(state, lists.reshape(-1), table, direction, cost, moves, distance, layout.pitch, _BUDGET)
-        if state[kernels.REASON] == kernels.DONE:
-            return NOT_REACHED
-        if state[kernels.REASON] == kernels.TOO_FAR:
-            raise ScenarioError(f"distances must stay below {kernels.FARTHEST}; a cell that can be reached is farther")
-        if state[kernels.REASON] == kernels.LISTS_FULL:
-            lists = np.concatenate([lists, np.empty_like(lists)], axis=1)
+    sites = layout.cell_to_site(scenario.destinations)
+    waiting, done = layout.cell_to_site(scenario.robots), 0
+
+    def look(horizon: int) -> bool:
+        nonlocal waiting, done
         if robots_only:
-            waiting = waiting[distance[waiting] >= state[kernels.BUCKET_END]]
-            if waiting.size == 0:
-                return int(state[kernels.BUCKET_END])
+            waiting = waiting[distance[waiting] >= horizon]
         if progress is not None:
             done = min(done + _BUDGET, area.free_count)
             progress(done, area.free_count)
+        return robots_only and waiting.size == 0
+
+    return settle(distance, layout, scenario.moves if is_masked else None, sites, np.zeros_like(sites), look)
 
 
 def make_d_scheme(n_scheme: NScheme) -> DScheme:
