@@ -22,7 +22,7 @@ from tempfile import TemporaryDirectory
 # Of one file: CPU seconds and memory beyond what was in use; the clock of a busy machine may show six times as much.
 SECONDS, MEGABYTES, ADDRESS_SPACE = 20.0, 1000, 6 << 30
 # Shares of files: bombs take seconds each, links stand for few different things.
-_BOMBS, _LINKS = 1 / 300, 1 / 200
+_BOMBS, _LINKS = 1 / 1000, 1 / 200
 _REALLY = "bad-really"
 
 
