@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from trihex.errors import AutomatonError, check_choice
+from trihex.kernels import NOT_REACHED as NOT_REACHED
 from trihex.record import Record, read_only
 from trihex.scenario import CORNERS, Scenario
 from trihex.tessellation import Tessellation
@@ -18,7 +19,6 @@ from trihex.tessellation import Tessellation
 PERIODIC = "periodic"
 # States of the distance rule beside the distances. The paper writes obstacles as 1, which no sum of moves can be.
 OBSTACLE = 1
-NOT_REACHED = 2**31 - 1
 
 States = NDArray[np.int64]
 Rule = Callable[[States, States], ArrayLike]

@@ -9,10 +9,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from trihex.area import cells_from
 from trihex.errors import ScenarioError
+from trihex.kernels import NOT_REACHED as NOT_REACHED
 from trihex.record import read_only
 from trihex.scenario import CORNERS, Scenario
 
-NOT_REACHED = 2**31 - 1
 _BUDGET = 1 << 18  # entries looked at in one call of a kernel, a few hundredths of a second
 _LEAST = 1 << 10
 

@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.errors import ScenarioError
+from trihex.kernels import NOT_REACHED
 from trihex.kernels.fields_table import make_front_table
 from trihex.tessellation import Layout
 
-NOT_REACHED = 2**31 - 1
 _BUDGET = 1 << 16  # cells settled in one call of a kernel, about 1 ms
 _LEAST_LIST = 1 << 12
 

@@ -10,5 +10,8 @@ Conventions, the same in every kernel:
 - The lattice vertex that a vertex move passes has a number of its own, ``site + vertex[parity, direction]``, in the
   same padded range as the sites.
 
-This package imports numba, so the rest of trihex imports it inside functions only, when a kernel is to run.
+Its modules import numba, so the rest of trihex imports them inside functions only, when a kernel is to run.
 """
+
+# The distance of a cell from which no destination can be reached, in int32 as in the files that users see.
+NOT_REACHED = 2**31 - 1
