@@ -118,7 +118,7 @@ def audit_plan(plan: Plan, limit: int = 100, *, progress: Callable[[int, int], N
     """
     found, count, site, stopped = _judged(plan, limit, progress)
     if stopped.size:
-        could = stopped[_is_reachable(plan.scenario, plan.scenario.robots[stopped])]
+        could = stopped[is_reachable(plan.scenario, plan.scenario.robots[stopped])]
         rows = np.full((could.size, found.shape[1]), -1, dtype=np.int32)
         rows[:, 0], rows[:, 1] = _STOPS, np.diff(plan.first_action)[could]
         rows[:, 2], rows[:, 4] = could, site[could]
@@ -185,7 +185,7 @@ def _places(scenario: Scenario) -> NDArray[np.int32]:
     return place
 
 
-def _is_reachable(scenario: Scenario, cells: NDArray[np.int64]) -> NDArray[np.bool_]:
+def is_reachable(scenario: Scenario, cells: NDArray[np.int64]) -> NDArray[np.bool_]:
     """Tell for each cell whether a lone robot gets from there to a destination."""
     from trihex.kernels import audit as kernels
 

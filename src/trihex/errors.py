@@ -7,7 +7,9 @@ Every error that a caller may want to catch descends from `TrihexError`, and fro
     ├── AreaError         (ValueError)   barriers that make no area, a generator asked for the impossible
     ├── AutomatonError    (ValueError)   a neighbourhood, states or a rule that make no cellular automaton
     ├── ScenarioError     (ValueError)   destinations, robots or rules that do not fit their area
+    ├── StudyError        (ValueError)   runs that make no study, a study that cannot begin or go on
     ├── PlanError         (ValueError)   a planner or an option of it that does not exist, actions that make no plan
+    ├── ExecutionError    (ValueError)   orders to robots that no robot can follow, robots that are not on their way
     ├── FormatError       (ValueError)   a file that is not what it claims to be
     ├── TooLargeError     (MemoryError)  work that would not fit into memory, refused before it starts
     └── MissingExtraError (ImportError)  an optional library that is not installed
@@ -21,7 +23,10 @@ from collections.abc import Iterable
 
 
 class TrihexError(Exception):
-    """Root of all errors of trihex; its message is one line that names the parameter, the rule and the value."""
+    """Root of all errors of trihex; its message names the parameter, the rule and the value.
+
+    It is one line; where a file is checked as a whole (scenarios), a line for each mistake.
+    """
 
 
 class TessellationError(TrihexError, ValueError):
@@ -42,6 +47,14 @@ class ScenarioError(TrihexError, ValueError):
 
 class PlanError(TrihexError, ValueError):
     """A planner or an option of it that does not exist, or actions that make no plan."""
+
+
+class StudyError(TrihexError, ValueError):
+    """Runs that make no study, or a study that cannot begin or go on; what it has done so far is kept."""
+
+
+class ExecutionError(TrihexError, ValueError):
+    """Orders to robots that no robot can follow, or robots that are not on their way."""
 
 
 class FormatError(TrihexError, ValueError):
