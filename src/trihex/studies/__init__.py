@@ -1,0 +1,1 @@
+"""Studies: many plans, made by many workers, as one table."""
