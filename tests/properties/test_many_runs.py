@@ -1,0 +1,38 @@
+"""Many random runs with events, sensing radii and delays: they end, no rule is broken, all arrive who can.
+
+``TRIHEX_RUNS=2000 pytest tests/properties/test_many_runs.py`` runs as many as that.
+"""
+
+import os
+
+import numpy as np
+import pytest
+
+from tests.random_runs import random_trial
+from trihex.run import GOING
+from trihex.run_audit import audit_run
+from trihex.trial import resume_trial
+
+COUNT = int(os.environ.get("TRIHEX_RUNS", "300"))
+SHARES, MOST_STEPS = 4, 5000
+
+
+@pytest.mark.parametrize("share", range(SHARES))
+def test_every_run_ends_safely_and_leaves_nobody_behind(share):
+    for seed in range(share, COUNT, SHARES):
+        run = random_trial(seed).run(most_steps=MOST_STEPS)
+        assert run.steps < MOST_STEPS, seed
+        audit = audit_run(run)
+        assert audit.is_clean, (seed, [str(conflict) for conflict in audit.conflicts])
+        still_going = np.flatnonzero(run.state_of_robot == GOING)
+        assert np.array_equal(np.flatnonzero(run.cut_off_since >= 0), still_going), seed
+
+
+@pytest.mark.parametrize("share", range(SHARES))
+def test_the_same_trial_gives_the_same_run_also_after_a_stop(share):
+    for seed in range(share, COUNT // 10, SHARES):
+        run = random_trial(seed).run()
+        again, events = random_trial(seed), [occurrence.event for occurrence in run.occurrences]
+        stopped = again.run(most_steps=seed % 23)
+        resumed = resume_trial(stopped, events[len(stopped.occurrences) :], aside=again.execution.aside)
+        assert resumed.run() == run == again.run(), seed
