@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from trihex.errors import MissingExtraError as MissingExtraError
     from trihex.errors import PlanError as PlanError
     from trihex.errors import ScenarioError as ScenarioError
+    from trihex.errors import StudyError as StudyError
     from trihex.errors import TessellationError as TessellationError
     from trihex.errors import TooLargeError as TooLargeError
     from trihex.errors import TrihexError as TrihexError
@@ -73,6 +74,10 @@ if TYPE_CHECKING:
     from trihex.schemes import NScheme as NScheme
     from trihex.schemes import make_d_scheme as make_d_scheme
     from trihex.schemes import make_n_scheme as make_n_scheme
+    from trihex.studies.run import run_study as run_study
+    from trihex.studies.run import write_study as write_study
+    from trihex.studies.study import Study as Study
+    from trihex.studies.study import read_study as read_study
     from trihex.tessellation import Tessellation as Tessellation
     from trihex.viewer.launch import open_viewer as open_viewer
     from trihex.viewer.page import write_page as write_page
@@ -100,6 +105,8 @@ _MODULE_OF_NAME = {
     "Report": "report",
     "Scenario": "scenario",
     "ScenarioError": "errors",
+    "Study": "studies.study",
+    "StudyError": "errors",
     "Tessellation": "tessellation",
     "TessellationError": "errors",
     "TooLargeError": "errors",
@@ -139,6 +146,8 @@ _MODULE_OF_NAME = {
     "read_plan": "formats",
     "read_scenario": "formats",
     "read_starts": "formats",
+    "read_study": "studies.study",
+    "run_study": "studies.run",
     "slot_bound": "bounds",
     "write_animation": "movie",
     "write_area": "formats",
@@ -147,6 +156,7 @@ _MODULE_OF_NAME = {
     "write_report": "formats.report_json",
     "write_scenario": "formats",
     "write_starts": "formats",
+    "write_study": "studies.run",
     "write_waypoints": "formats",
 }
 __all__ = sorted(_MODULE_OF_NAME)

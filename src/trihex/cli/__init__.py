@@ -13,6 +13,7 @@ COMMANDS = {
     "plan": "Plan collision-free paths for all robots.",
     "field": "Compute the N-scheme and the D-scheme.",
     "compare": "Compare planners: total time, gap, steps, seconds.",
+    "study": "Do many runs as one table, by many processes or a cluster.",
     "check": "Tell whether a plan is safe.",
     "animate": "Draw the robots of a plan on their way.",
     "view": "Open the viewer: paint, plan, play and compare in a browser.",

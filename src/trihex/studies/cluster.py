@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
+import asyncio
 import logging
-import re
-import socket
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -56,23 +55,23 @@ def connected(address: str, seconds: float = _SECONDS) -> Iterator[Cluster]:
 
 
 def _connect(distributed: Any, address: str, seconds: float) -> Any:
-    found = re.fullmatch(r"(tcp|tls|ws|wss)://(\[[^\]]+\]|[^:/]+):(\d{1,5})", address)
-    if not found:
-        raise StudyError(f"scheduler must be an address such as tcp://10.0.0.1:8786, not {address!r:.80}")
-    silence = f"{address}: no Dask scheduler answers there"
+    """Return a client of the scheduler at `address`."""
+
+    async def shake_hands() -> None:
+        async with asyncio.timeout(seconds):
+            comm = await distributed.comm.connect(address, timeout=seconds)
+            await comm.close()
+
     try:
-        # Asked first, because a client that cannot connect complains once more when it is thrown away.
-        socket.create_connection((found[2].strip("[]"), int(found[3])), timeout=seconds).close()
-    except (OSError, OverflowError) as error:
-        reason = getattr(error, "strerror", None) or f"within {seconds:g} s"
-        raise StudyError(f"{silence} ({reason})") from None
-    client = distributed.Client.__new__(distributed.Client)
-    try:
-        client.__init__(address, timeout=seconds, set_as_default=False)
-    except (OSError, ValueError):
-        client.status = "closed"
-        raise StudyError(f"{silence}, but something else") from None
-    return client
+        # Asked first, because a client that cannot connect may wait for ever, and complains when it is thrown away.
+        asyncio.run(shake_hands())
+    except ValueError as error:
+        raise StudyError(
+            f"scheduler must be an address such as tcp://10.0.0.1:8786, not {address!r:.80}: {error}"
+        ) from None
+    except OSError:
+        raise StudyError(f"{address}: no Dask scheduler answers there within {seconds:g} s") from None
+    return distributed.Client(address, timeout=seconds, set_as_default=False)
 
 
 def _check_workers(client: Any, address: str, seconds: float) -> None:

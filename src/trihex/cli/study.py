@@ -1,0 +1,100 @@
+"""`trihex study`: many runs as one table, by many processes or a cluster."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, nullcontext
+from pathlib import Path
+from time import monotonic
+from typing import Any
+
+import click
+
+from trihex.cli.group import DONE, NO
+from trihex.cli.options import PATH, wrong_use
+from trihex.cli.types import Whole
+
+_SECONDS_BETWEEN_LINES = 60
+
+
+@click.command("study")
+@click.argument("study", type=PATH)
+@click.option(
+    "--out", type=PATH, metavar="FILE", help="The table, .csv or .parquet. [default: the name of STUDY with .csv]"
+)
+@click.option("--jobs", type=Whole(1), help="How many processes work. [default: one for each core]")
+@click.option("--scheduler", metavar="ADDRESS", help="Have the workers of a Dask scheduler work: tcp://HOST:PORT.")
+def command(study: Path, out: Path | None, jobs: int | None, scheduler: str | None) -> int:
+    """Do all runs of a study: a grid of areas, tessellations, rules, robots and planners, as one table.
+
+    STUDY is a .toml file. Rows are kept as they come in a journal beside the table, FILE.journal; interrupted or
+    killed, the same command goes on where it was. A run that fails is a row with its error. Columns that begin with
+    seconds are CPU times; all others are the same whoever does the work in whatever order.
+
+    Exit status 1: some runs failed, or made an unsafe plan.
+    """
+    from trihex.formats.files import check_output
+    from trihex.studies.journal import journal_of
+    from trihex.studies.results import check_results
+    from trihex.studies.run import write_study
+    from trihex.studies.study import read_study
+
+    if jobs and scheduler:
+        raise wrong_use("--jobs and --scheduler exclude each other")
+    out = study.with_suffix(".csv") if out is None else out
+    check_results(out)
+    check_output(out)
+    runs = read_study(study)
+    try:
+        with _workers(scheduler) as executor, _progress() as progress:
+            outcome = write_study(runs, out, executor=executor, jobs=jobs, progress=progress)
+    except (KeyboardInterrupt, SystemExit):
+        click.echo(f"trihex: what is done is kept in {journal_of(out)}; the same command goes on", err=True)
+        raise
+    amiss = [f", {count} {what}" for count, what in ((outcome.failed, "failed"), (outcome.unsafe, "unsafe")) if count]
+    click.echo(f"{out}: {outcome.runs} runs{''.join(amiss)}")
+    return NO if amiss else DONE
+
+
+def _workers(scheduler: str | None) -> Any:
+    if scheduler is None:
+        return nullcontext()
+    from trihex.studies.cluster import connected
+
+    return connected(scheduler)
+
+
+@contextmanager
+def _progress() -> Iterator[Callable[[int, int], None]]:
+    """Yield what shows how far the runs are and how long the rest will take: a bar, or unwatched a line a minute."""
+    from tqdm import tqdm
+
+    shown: Any = None
+    first, begin, last = 0, monotonic(), monotonic()
+
+    def move(done: int, total: int) -> None:
+        nonlocal shown, first, last
+        if shown is None:
+            first = done
+            # Runs differ much, so the mean of all tells more of the rest than the last few do.
+            shown = tqdm(total=total, initial=done, unit=" runs", disable=None, delay=1, leave=False, smoothing=0)
+        shown.update(done - shown.n)
+        now = monotonic()
+        if not sys.stderr.isatty() and now - last >= _SECONDS_BETWEEN_LINES and done > first:
+            left = (now - begin) / (done - first) * (total - done)
+            click.echo(f"trihex: {done} of {total} runs, about {_told(left)} left", err=True)
+            last = now
+
+    try:
+        yield move
+    finally:
+        if shown is not None:
+            shown.close()
+
+
+def _told(seconds: float) -> str:
+    """Return a duration as a person says it."""
+    if seconds < 90:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"
