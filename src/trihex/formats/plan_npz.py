@@ -28,8 +28,8 @@ _PIECE = 2**22
 # Packs actions three times as fast as level 6 does, 16 % larger.
 _LEVEL = 4
 # Kind of number and number of axes of each entry.
-_ENTRIES = {
-    "version": ("i", 0),
+Entries = dict[str, tuple[str, int]]
+SCENARIO_ENTRIES: Entries = {
     "tessellation": ("U", 0),
     "neighbourhood": ("U", 0),
     "costs": ("U", 0),
@@ -43,6 +43,10 @@ _ENTRIES = {
     "corners": ("U", 0),
     "destination_capacity": ("i", 0),  # 0: any number
     "seed": ("i", 0),  # -1: none
+}
+_ENTRIES: Entries = {
+    "version": ("i", 0),
+    **SCENARIO_ENTRIES,
     "planner": ("U", 0),
     "optimal": ("b", 0),
     "actions": ("u", 1),
@@ -66,9 +70,15 @@ def write_plan_npz(
     progress : callable, optional
         Called with (bytes packed, bytes to pack).
     """
-    scenario, area, tessellation = plan.scenario, plan.scenario.area, plan.scenario.area.tessellation
-    arrays: dict[str, Any] = {
-        "version": VERSION,
+    own = {"planner": plan.planner, "optimal": plan.optimal}
+    own |= {"actions": plan.actions, "first_action": plan.first_action, "jumps": plan.jumps}
+    pack({"version": VERSION, **scenario_arrays(plan.scenario), **own}, path, progress)
+
+
+def scenario_arrays(scenario: Scenario) -> dict[str, Any]:
+    """Return all of a scenario as entries of a file; `scenario_from` reads them."""
+    area, tessellation = scenario.area, scenario.area.tessellation
+    return {
         "tessellation": tessellation.name,
         "neighbourhood": tessellation.neighbourhood,
         "costs": tessellation.costs,
@@ -82,12 +92,13 @@ def write_plan_npz(
         "corners": scenario.corners,
         "destination_capacity": scenario.destination_capacity or 0,
         "seed": -1 if scenario.seed is None else scenario.seed,
-        "planner": plan.planner,
-        "optimal": plan.optimal,
-        "actions": plan.actions,
-        "first_action": plan.first_action,
-        "jumps": plan.jumps,
     }
+
+
+def pack(
+    arrays: dict[str, Any], path: str | os.PathLike[str], progress: Callable[[int, int], None] | None = None
+) -> None:
+    """Write arrays, numbers and text as the entries of an .npz file; the same ones give the same bytes."""
     made = {name: np.ascontiguousarray(value).reshape(np.shape(value)) for name, value in arrays.items()}
     done, total = 0, sum(array.nbytes for array in made.values())
     # As `numpy.savez_compressed` does it, but piece by piece, so that a long one can be watched and interrupted.
@@ -116,20 +127,39 @@ def read_plan_npz(path: str | os.PathLike[str], content: bytes | None = None) ->
     OSError
         If the file cannot be read.
     """
-    content = read_bytes(path) if content is None else content
+    arrays = unpack(read_bytes(path) if content is None else content, path, _ENTRIES, VERSION, "a plan")
+    plan = Plan(
+        scenario_from(arrays, path),
+        arrays["actions"],
+        arrays["first_action"],
+        str(arrays["planner"]),
+        bool(arrays["optimal"]),
+        arrays["jumps"],
+    )
+    _check_inside(plan, path)
+    return plan
+
+
+def unpack(content: bytes, path: object, entries: Entries, version: int, what: str) -> dict[str, Any]:
+    """Return the entries of an .npz file by name, or raise FormatError if they are not those of `what`."""
     try:
         with zipfile.ZipFile(BytesIO(content)) as archive:
-            arrays = _unpack(archive, path)
+            arrays = _unpacked(archive, path, entries, what)
     except (FormatError, MemoryError):
         raise
     except Exception as error:  # zipfile, zlib and numpy raise whatever they stumble on: even tokenize.TokenError
         raise FormatError(f"{path}: is no whole .npz file: {error!s:.120}") from None
-    if (version := int(arrays["version"])) != VERSION:
-        raise FormatError(f"{path}: version must be {VERSION}, not {version}")
-    text = {name: str(arrays[name]) for name, (kind, _) in _ENTRIES.items() if kind == "U"}
+    if (found := int(arrays["version"])) != version:
+        raise FormatError(f"{path}: version must be {version}, not {found}")
+    return arrays
+
+
+def scenario_from(arrays: dict[str, Any], path: object) -> Scenario:
+    """Return the scenario in the entries of a file."""
+    text = {name: str(arrays[name]) for name, (kind, _) in SCENARIO_ENTRIES.items() if kind == "U"}
     seed, capacity = int(arrays["seed"]), int(arrays["destination_capacity"])
     tessellation = Tessellation(text["tessellation"], text["neighbourhood"], text["costs"])
-    scenario = Scenario(
+    return Scenario(
         Area(tessellation, arrays["barriers"], text["area"], _frame(arrays["frame"], path)),
         arrays["destinations"],
         arrays["robots"],
@@ -139,16 +169,6 @@ def read_plan_npz(path: str | os.PathLike[str], content: bytes | None = None) ->
         None if capacity == 0 else capacity,
         None if seed == -1 else seed,
     )
-    plan = Plan(
-        scenario,
-        arrays["actions"],
-        arrays["first_action"],
-        text["planner"],
-        bool(arrays["optimal"]),
-        arrays["jumps"],
-    )
-    _check_inside(plan, path)
-    return plan
 
 
 def _frame(numbers: NDArray[np.float64], path: object) -> Frame | None:
@@ -160,17 +180,17 @@ def _frame(numbers: NDArray[np.float64], path: object) -> Frame | None:
     return Frame(cell_size, (x, y), yaw, robot_radius)
 
 
-def _unpack(archive: zipfile.ZipFile, path: object) -> dict[str, Any]:
+def _unpacked(archive: zipfile.ZipFile, path: object, entries: Entries, what: str) -> dict[str, Any]:
     """Return the entries, each looked at before it is unpacked."""
     infos = {info.filename.removesuffix(".npy"): info for info in archive.infolist()}
-    for wrong, rule in ((_ENTRIES.keys() - infos, "must have"), (infos.keys() - _ENTRIES, "must not have")):
+    for wrong, rule in ((entries.keys() - infos, "must have"), (infos.keys() - entries, "must not have")):
         if wrong:
-            raise FormatError(f"{path}: a plan {rule} the entry {min(wrong)!r}")
+            raise FormatError(f"{path}: {what} {rule} the entry {min(wrong)!r}")
     unpacked = sum(info.file_size for info in infos.values())
     if unpacked > MAX_UNPACKED:
         raise FormatError(f"{path}: must unpack to at most {MAX_UNPACKED} bytes, not {unpacked}")
     arrays = {}
-    for name, (kind, axes) in _ENTRIES.items():
+    for name, (kind, axes) in entries.items():
         with archive.open(infos[name]) as file:
             if npy.read_magic(file) != (1, 0):
                 raise FormatError(f"{path}: entry {name!r} has an unknown npy version")
