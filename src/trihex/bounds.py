@@ -27,6 +27,7 @@ _BUDGET = 2_000_000
 # (some 50 bytes each), looks at slots. Together some seconds at worst, a fraction of what a plan of that size costs.
 _MOST_SENT = 100_000_000
 _MOST_VISITS = 30_000_000
+_VISITS_PER_ROBOT = 3000  # few robots on a large area: 14 gates in place of 33 leave the bound within 0.001 %
 _MOST_SLOTS = 5_000_000
 _MOST_LOOKS = 50_000_000
 
@@ -112,7 +113,8 @@ def _steps_past_gates(crowd: Crowd, most_gates: int, progress: Callable[[int, in
     if entries * crowd.node_count <= _MOST_SENT:
         cuts = find_cuts(crowd, most_searches=_MOST_VISITS // (4 * free_cells) + 1)
     queued = _steps_past_cuts(crowd, cuts, entries)
-    gates = _choose_gates(crowd, cuts, min(most_gates, _MOST_VISITS // free_cells))
+    visits = min(_MOST_VISITS, _VISITS_PER_ROBOT * crowd.sites.size)
+    gates = _choose_gates(crowd, cuts, min(most_gates, visits // free_cells))
     horizon = int(queued.max(initial=0)) * 5 // 4 + 100
     horizon = min(horizon, _MOST_SLOTS // max(gates.size, 1))
     if gates.size == 0 or horizon == 0:

@@ -67,6 +67,8 @@ class _Survey:
         self.gate_of_node[nodes] = np.arange(nodes.size)
         self.robot_at = np.full(crowd.node_count, -1, dtype=np.int32)
         self.robot_at[crowd.sites] = np.arange(crowd.sites.size)
+        self.is_special = (self.gate_of_node >= 0) | (self.robot_at >= 0)
+        self.is_special[:size] |= crowd.is_destination
         self.steps = np.full(crowd.node_count, -1, dtype=np.int32)
         self.queue = np.empty(crowd.node_count, dtype=np.int32)
         self.near_gate, self.gate_steps = np.empty((2, nodes.size), dtype=np.int32)
@@ -86,6 +88,7 @@ class _Survey:
             layout.vertex_of_direction,
             scenario.area.tessellation.edge_count,
             self.crowd.has_vertices,
+            self.is_special,
             self.crowd.is_destination,
             self.gate_of_node,
             self.robot_at,

@@ -27,6 +27,7 @@ PASS, STEAL, SKIP, FEED, CHANGE = range(5)
         types.int64,
         types.boolean,
         IN_BOOL,
+        IN_BOOL,
         IN_I32,
         IN_I32,
         OUT_I32,
@@ -41,7 +42,7 @@ PASS, STEAL, SKIP, FEED, CHANGE = range(5)
     nogil=True,
 )
 def steps_from_gate(
-    gate, starts, moves, offset, vertex, edge_count, has_vertices, is_destination, gate_of_node, robot_at,
+    gate, starts, moves, offset, vertex, edge_count, has_vertices, is_special, is_destination, gate_of_node, robot_at,
     steps, queue, near_gate, gate_steps, near_robot, robot_steps, count,
 ):  # fmt: skip
     """Find what lies around `gate` (-1: around a destination): gates, robots and destinations, in steps from it.
@@ -49,6 +50,7 @@ def steps_from_gate(
     The search in breadth begins at the sites `starts`, and passes neither other gates nor destinations. It lists gates
     in `near_gate` and robots in `near_robot` from ``count[0]`` and ``count[1]`` on, raises these, and sets ``count[2]``
     to the steps to a destination that is no gate (-1: none near). `steps` must be -1 at all nodes; it is left so.
+    Gates, robots and destinations are all `is_special`, so that at most nodes one look is enough.
     """
     size = len(moves)
     head = 0
@@ -62,20 +64,21 @@ def steps_from_gate(
         node = queue[head]
         head += 1
         here = steps[node]
-        is_start = here == 0 and (gate < 0 or gate_of_node[node] == gate)
-        if gate_of_node[node] >= 0 and not is_start:
-            near_gate[count[0]] = gate_of_node[node]
-            gate_steps[count[0]] = here
-            count[0] += 1
-            continue
-        if is_destination[node] and not is_start:
-            if count[2] < 0:
-                count[2] = here
-            continue
-        if robot_at[node] >= 0:
-            near_robot[count[1]] = robot_at[node]
-            robot_steps[count[1]] = here
-            count[1] += 1
+        if is_special[node]:
+            is_start = here == 0 and (gate < 0 or gate_of_node[node] == gate)
+            if gate_of_node[node] >= 0 and not is_start:
+                near_gate[count[0]] = gate_of_node[node]
+                gate_steps[count[0]] = here
+                count[0] += 1
+                continue
+            if is_destination[node] and not is_start:
+                if count[2] < 0:
+                    count[2] = here
+                continue
+            if robot_at[node] >= 0:
+                near_robot[count[1]] = robot_at[node]
+                robot_steps[count[1]] = here
+                count[1] += 1
         bits = moves[node]
         for k in range(offset.shape[1]):
             if bits >> k & 1:
