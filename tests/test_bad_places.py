@@ -38,7 +38,7 @@ BAD = ["plan", "bad", *SIZE, *AIM, *ROBOTS]
 # As in test_bad_input: what the file `bad` holds, the command, and what it says.
 CASES = {
     # sizes
-    "map without cell size": (None, ["plan", "house.yaml", *AIM, *ROBOTS], "house.yaml: a ROS map is measured in metres; give the edge step of a cell, such as cell_size 0.5"),
+    "map without cell size": (None, ["plan", "house.yaml", *AIM, *ROBOTS], "house.yaml: a ROS map (8 by 6 metres) is measured in metres: say how far apart the centres of neighbouring cells shall be, cell_size 0.5 for half a metre (--cell-size on the command line)"),
     "cells too small for two robots": (None, ["plan", "house.yaml", "--cell-size", "0.5", "--robot-radius", "0.15", *AIM, *ROBOTS], "cell_size must be at least 0.6 metres on hexagonal cells for two robots of radius 0.15 to pass each other (they come as near as 0.5 of it), not 0.5; at that size the radius may be at most 0.125"),
     "cells too small for triangles": (None, [*PLAN, "--tessellation", "triangular"], "cell_size must be at least 0.6111 metres on triangular cells for two robots of radius 0.1"),
     "cells far too small": (None, ["plan", "house.yaml", "--cell-size", "0.0001", *AIM, *ROBOTS], "cell_size must be at least 0.0016 metres for a world of 8 by 6 metres (at most 25000000 cells), not 0.0001"),
@@ -64,7 +64,7 @@ CASES = {
     # images
     "torn image": (b"P5\n40 40\n255\n" + bytes(70), ["plan", "bad", "--destination", "0,0", *ROBOTS], "bad: the image is damaged: *"),
     "image of 10 gigapixels": (b"P5\n100000 100000\n255\n" + bytes(70), ["plan", "bad", "--destination", "0,0", *ROBOTS], "bad: an image may have at most 100000000 pixels"),
-    "image without a measure": (None, ["plan", "house.pgm", *SIZE, *AIM, *ROBOTS], "house.pgm: an image has no measure; give resolution, the metres for each pixel"),
+    "image without a measure": (None, ["plan", "house.pgm", *SIZE, *AIM, *ROBOTS], "house.pgm: an image has no measure: say how many metres a pixel is wide, resolution 0.05 for five centimetres (--resolution on the command line)"),
     "radius without a cell size": (None, ["plan", "house.pgm", "--robot-radius", "0.1", "--destination", "4,4", *ROBOTS], "house.pgm: robot_radius and resolution need cell_size, the edge step of a cell in metres"),
     "brightness in per cent": (None, ["plan", "house.pgm", "--threshold", "50", "--destination", "4,4", *ROBOTS], "--threshold must be a number from 0 to 1, not '50'"),
     "unknown kind of unknown": (None, [*PLAN, "--unknown", "fre"], "--unknown must be one of barrier, free, not 'fre'; did you mean 'free'?"),

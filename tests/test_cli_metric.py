@@ -128,3 +128,17 @@ def test_starts_of_scen_become_csv(tmp_path, monkeypatch):
     assert (tmp_path / "a.csv").read_text() == "x,y\n3,0\n"
     refused = run("convert", "a.scen", "b.csv")
     assert refused.exit_code == 2 and "a.scen holds starts in an area: add --area AREA" in refused.output
+
+
+def test_compare_covers_a_place_anew_by_each_tessellation_that_fits(house):
+    size = ["--cell-size", "0.5", "--robot-radius", "0.1"]
+    done = run("compare", "house.yaml", *size, *PLACES, "--robots", 10, "--planners", "greedy")
+    assert done.exit_code == 0, done.output
+    assert [line.split()[0] for line in done.stdout.splitlines()[2:]] == ["hexagonal", "square"]
+    assert done.stderr.startswith("trihex: triangular is left out: cell_size must be at least 0.6111 metres")
+    done = run("compare", "house.yaml", *size, *PLACES, "--robots", 10, "--tessellations", "square,triangular")
+    assert (done.exit_code, done.stdout) == (2, "")
+    assert "at least 0.6111 metres on triangular cells" in done.stderr
+    done = run("compare", "house.yaml", "--cell-size", 0.2, "--robot-radius", 0.1, *PLACES, "--robots", 10)
+    assert done.exit_code == 2 and done.stderr.count("is left out") == 3
+    assert "no tessellation fits" in done.stderr

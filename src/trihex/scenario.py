@@ -164,10 +164,31 @@ def _check_free(area: Area, cells: NDArray[np.int64], one: str) -> None:
     if stuck.size:
         number, where, why = int(stuck[0]), area.name_of_cell(int(cells[stuck[0]])), ""
         if area.frame is not None:
-            x, y = area.cell_to_metres(cells[stuck[0]])
-            where += f" at ({x:g}, {y:g}) metres"
+            where += _metres_of(area, int(cells[number]))
             why = f": something stands too near for robots of radius {area.frame.robot_radius:g}"
-        raise ScenarioError(f"{one} {number} must stand on a free cell; {where} is a barrier{why}")
+        near = _free_cell_near(area, int(cells[number]))
+        hint = "" if near is None else f"; the nearest free cell is {area.name_of_cell(near)}{_metres_of(area, near)}"
+        raise ScenarioError(f"{one} {number} must stand on a free cell; {where} is a barrier{why}{hint}")
+
+
+def _metres_of(area: Area, cell: int) -> str:
+    if area.frame is None:
+        return ""
+    x, y = area.cell_to_metres(cell)
+    return f" at ({x:g}, {y:g}) metres"
+
+
+def _free_cell_near(area: Area, cell: int) -> int | None:
+    """Return the free cell whose centre is nearest to that of `cell`, looked for within 50 rows and columns."""
+    x, y = (int(number) for number in area.cell_to_xy(cell))
+    left, top = max(0, x - 50), max(0, y - 50)
+    rows, columns = np.nonzero(~area.barriers[top : y + 51, left : x + 51])
+    if rows.size == 0:
+        return None
+    px, py = area.tessellation.centre_of_cell(columns + left, rows + top)
+    cx, cy = area.tessellation.centre_of_cell(x, y)
+    nearest = int(np.argmin((px - cx) ** 2 + (py - cy) ** 2))
+    return int(area.xy_to_cell(int(columns[nearest]) + left, int(rows[nearest]) + top))
 
 
 def _check_distinct(area: Area, robots: NDArray[np.int64]) -> None:

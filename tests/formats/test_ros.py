@@ -155,7 +155,7 @@ def test_mistakes_are_told_with_their_key(tmp_path, old, new, message):
 
 def test_a_map_needs_a_cell_size_and_its_image(tmp_path):
     path = write_map(tmp_path, np.full((4, 4), 254))
-    with pytest.raises(FormatError, match=r"a ROS map is measured in metres; give the edge step of a cell"):
+    with pytest.raises(FormatError, match=r"metres\) is measured in metres: say how far apart"):
         read_area(path)
     with pytest.raises(AreaError, match=r"cell_size must be at least 0\.6 metres"):
         read_area(path, "hexagonal", cell_size=0.5, robot_radius=0.15)

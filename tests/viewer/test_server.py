@@ -202,7 +202,7 @@ def test_files_that_name_themselves_and_links_in_a_ring_end_with_a_message(viewi
     (tmp_path / "folder/ring.map").symlink_to("ring.map")
     assert "ring.map" in refusal(viewing, {"op": "open", "name": "ring.map"})
     (tmp_path / "folder/self.toml").write_text('[area]\npath = "self.toml"')
-    assert "must hold an area, not scenario" in refusal(viewing, {"op": "open", "name": "self.toml"})
+    assert "must hold an area, not a scenario" in refusal(viewing, {"op": "open", "name": "self.toml"})
 
 
 def test_a_file_is_not_replaced_unasked(viewing, tmp_path):

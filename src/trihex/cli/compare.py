@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from trihex.cli.group import DONE, NO
-from trihex.cli.options import PATH, area_options, complete, read_described, robot_options, rule_options
+from trihex.cli.options import PATH, area_options, complete, read_described, robot_options, rule_options, wrong_use
 from trihex.cli.outputs import check_outputs
 from trihex.cli.progress import bar
 from trihex.cli.types import Names
+from trihex.errors import AreaError, ScenarioError
+
+if TYPE_CHECKING:
+    from trihex.scenario import Scenario
 
 
 @click.command("compare")
@@ -39,7 +43,8 @@ def command(
 ) -> int:
     """Compare planners: total time, gap to the optimum or to a lower bound, steps, seconds.
 
-    All plan the same robots. A gap marked <= is measured against a lower bound, because the optimum is not known; the
+    All plan the same robots; where a place in metres is covered by cells of each shape anew, as many, drawn by the
+    same seed. A gap marked <= is measured against a lower bound, because the optimum is not known; the
     true gap is at most that.
 
     Exit status 1: some robots cannot arrive, or a plan is unsafe.
@@ -49,10 +54,11 @@ def command(
     from trihex.planners import PLANNERS
 
     check_outputs((out, (".csv",), "a table"), (picture, (".png", ".svg", ".pdf"), "a chart"))
-    scenario = complete(read_described(area, options))
-    names = tessellations or ((options["tessellation"],) if options["tessellation"] else None)
+    scenarios = _scenarios(
+        area, tessellations or ((options["tessellation"],) if options["tessellation"] else ()), options
+    )
     with bar("planning", "plans") as progress:
-        comparison = make_comparison(_shaped(scenario, names), planners or tuple(PLANNERS), progress=progress)
+        comparison = make_comparison(scenarios, planners or tuple(PLANNERS), progress=progress)
     rows = comparison.rows()
     if out:
         write_values(rows, out)
@@ -61,15 +67,31 @@ def command(
     return _told(comparison, rows)
 
 
-def _shaped(scenario: Any, names: tuple[str, ...] | None) -> list[Any]:
-    """Return the scenario on each of the tessellations; by default on all that fit its area."""
+def _scenarios(path: Path, names: tuple[str, ...], options: dict[str, Any]) -> list[Scenario]:
+    """Return the scenario on each of the tessellations, or on all that fit if none is named.
+
+    Barriers of cells are read as cells of another shape; a place in metres is covered anew by each.
+    """
     from trihex.comparison import on_tessellations
+    from trihex.formats.files import read_bytes
+    from trihex.formats.recognise import format_of
     from trihex.tessellation import TESSELLATIONS
 
-    if names is None:  # cells of an area in metres cannot take another shape
-        area = scenario.area
-        names = TESSELLATIONS if area.frame is None else (area.tessellation.name,)
-    return on_tessellations(scenario, names)
+    if options["cell_size"] is None or format_of(read_bytes(path), path) in ("movingai", "letters"):
+        scenario = complete(read_described(path, options))
+        own = () if scenario.area.frame is None else (scenario.area.tessellation.name,)
+        return on_tessellations(scenario, names or own or TESSELLATIONS)
+    scenarios = []
+    for name in names or TESSELLATIONS:
+        try:
+            scenarios.append(complete(read_described(path, {**options, "tessellation": name})))
+        except (AreaError, ScenarioError) as error:
+            if names:
+                raise
+            click.echo(f"trihex: {name} is left out: {error}", err=True)
+    if not scenarios:
+        raise wrong_use("no tessellation fits; see above")
+    return scenarios
 
 
 def _draw(rows: list[dict[str, Any]], path: Path) -> None:

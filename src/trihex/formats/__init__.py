@@ -22,7 +22,7 @@ from trihex.formats.movingai import parse_movingai, write_movingai
 from trihex.formats.options import AreaOptions
 from trihex.formats.plan_csv import read_plan_csv, write_plan_csv
 from trihex.formats.plan_npz import read_plan_npz, write_plan_npz
-from trihex.formats.recognise import format_of
+from trihex.formats.recognise import NAME_OF_FORMAT, Format, format_of
 from trihex.formats.starts import read_starts as read_starts
 from trihex.formats.starts_csv import write_starts as write_starts
 from trihex.frame import Frame
@@ -103,7 +103,7 @@ def _read_area_draft(path: Path, options: AreaOptions) -> Draft:
 
 
 def _parse_area(
-    content: bytes, form: str, path: str | os.PathLike[str], options: AreaOptions, progress: Progress | None
+    content: bytes, form: Format, path: str | os.PathLike[str], options: AreaOptions, progress: Progress | None
 ) -> Draft:
     """Return the draft of an area; parsers of real places are imported where they are used."""
     if form == "ros":
@@ -123,7 +123,7 @@ def _parse_area(
 
         return parse_wkt(content, path, options, progress)
     if form not in ("movingai", "letters"):
-        raise FormatError(f"{path}: must hold an area, not {form}")
+        raise FormatError(f"{path}: must hold an area, not {NAME_OF_FORMAT[form]}")
     if options.robot_radius:
         raise FormatError(f"{path}: has one cell for each letter; robot_radius needs a place with walls in metres")
     text, tessellation = check_text(content, path), options.tessellation
@@ -229,7 +229,7 @@ def read_plan(
     if form == "npz":
         return read_plan_npz(path, content)
     if form not in ("plan", "parquet"):
-        raise FormatError(f"{path}: must hold a plan (.npz, .csv or .parquet), not {form}")
+        raise FormatError(f"{path}: must hold a plan (.npz, .csv or .parquet), not {NAME_OF_FORMAT[form]}")
     if scenario is None:
         raise FormatError(f"{path}: does not hold its area; name the area, destinations and rules as well")
     if form == "parquet":

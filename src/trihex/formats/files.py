@@ -7,7 +7,6 @@ import stat
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from secrets import token_hex
 
 from trihex.errors import FormatError, check_choice
 
@@ -71,7 +70,7 @@ def new_file(path: str | os.PathLike[str]) -> Iterator[Path]:
             raise IsADirectoryError(21, "Is a directory", str(path))
         yield target
         return
-    part = target.with_name(f".trihex-{token_hex(4)}{target.suffix}")
+    part = target.with_name(f".trihex-{os.urandom(4).hex()}{target.suffix}")
     try:
         with open(part, "xb"):
             pass

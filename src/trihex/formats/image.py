@@ -98,7 +98,10 @@ def parse_image(content: bytes, path: str | os.PathLike[str], options: AreaOptio
             raise FormatError(f"{path}: robot_radius and resolution need cell_size, the edge step of a cell in metres")
         return Draft(Area(options.tessellation, occupied, name))
     if options.resolution is None:
-        raise FormatError(f"{path}: an image has no measure; give resolution, the metres for each pixel")
+        raise FormatError(
+            f"{path}: an image has no measure: say how many metres a pixel is wide, resolution 0.05 for five "
+            "centimetres (--resolution on the command line)"
+        )
     covering = options.covering_of(path, "an image")
     area = cover_raster(
         occupied,

@@ -60,6 +60,7 @@ class AreaOptions(Record):
         """Return how to cover a place that is measured in metres; raise FormatError if there is no cell size."""
         if self.cell_size is None:
             raise FormatError(
-                f"{path}: {kind} is measured in metres; give the edge step of a cell, such as cell_size 0.5"
+                f"{path}: {kind} is measured in metres: say how far apart the centres of neighbouring cells shall be, "
+                "cell_size 0.5 for half a metre (--cell-size on the command line)"
             )
         return Covering(self.tessellation, self.cell_size, self.robot_radius)

@@ -13,6 +13,21 @@ Format = Literal[
     "npz", "parquet", "plan", "starts", "scen", "scenario", "movingai", "ros", "image", "geojson", "wkt", "letters"
 ]
 
+# The formats as messages call them.
+NAME_OF_FORMAT: dict[Format, str] = {
+    "npz": "a plan (.npz)",
+    "parquet": "a plan (.parquet)",
+    "plan": "a plan (.csv)",
+    "starts": "starts (.csv)",
+    "scen": "starts (.scen)",
+    "scenario": "a scenario (.toml)",
+    "movingai": "a MovingAI map",
+    "ros": "a ROS map",
+    "image": "an image",
+    "geojson": "GeoJSON",
+    "wkt": "WKT",
+    "letters": "letters",
+}
 _IMAGE = re.compile(rb"\x89PNG|\xff\xd8\xff|GIF8|BM.{4}\0\0\0\0|P[1-6]\s", re.DOTALL)
 _BINARY = {
     b"\x93NUMPY": "an .npy array",

@@ -44,9 +44,10 @@ def parse_ros(content: bytes, path: str | os.PathLike[str], options: AreaOptions
     if not 1e-9 <= resolution <= 1e9:
         raise FormatError(f"{path}: resolution must be between 1e-9 and 1e9 metres, not {resolution:g}")
     west, south, yaw = _origin(entries, path)
-    covering = options.covering_of(path, "a ROS map")
     image = Path(path).parent / _text(entries, "image", path)
     grey, is_opaque = read_pixels(read_bytes(image), image)
+    size = f"{grey.shape[1] * resolution:g} by {grey.shape[0] * resolution:g} metres"
+    covering = options.covering_of(path, f"a ROS map ({size})")
     occupied, free = _states(entries, grey, is_opaque, path)
     height = grey.shape[0] * resolution
     area = cover_raster(
