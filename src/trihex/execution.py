@@ -96,6 +96,9 @@ class Execution:
         #: Number of steps done.
         self.steps_done = 0
         self._arrive_on_the_spot()
+        # Compiled code is loaded now, not in the first step, for which a robot may be waiting.
+        self.field.change()
+        self._act(self._site[:0], np.empty(0, dtype=np.uint8))
 
     @property
     def state_of_robot(self) -> NDArray[np.uint8]:

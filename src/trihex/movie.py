@@ -80,8 +80,8 @@ def write_animation(
         If an .mp4 is asked for without PyAV.
     """
     suffix = suffix_of(path, SUFFIXES, "a movie")
-    _check_range("frames_per_second", frames_per_second, 1, 50)
-    _check_range("max_frames", max_frames, 2, 100_000)
+    check_range("frames_per_second", frames_per_second, 1, 50)
+    check_range("max_frames", max_frames, 2, 100_000)
     if suffix == ".mp4":
         import_av()
     film = Film(plan, max_frames, _scene(plan, width, title, clock, legend), clock)
@@ -100,7 +100,8 @@ def write_animation(
                     progress(done, film.frame_count)
 
 
-def _check_range(parameter: str, value: object, least: int, most: int) -> None:
+def check_range(parameter: str, value: object, least: int, most: int) -> None:
+    """Raise PlanError unless `value` is a whole number from `least` to `most`."""
     if isinstance(value, bool) or not isinstance(value, int | np.integer) or not least <= value <= most:
         raise PlanError(f"{parameter} must be a whole number from {least} to {most}, not {value!r}")
 

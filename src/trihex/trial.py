@@ -86,7 +86,9 @@ class Trial:
         #: Seconds of each step, from events to moves.
         self.seconds: list[float] = []
         self._repairs = [0, 0]
-        self._moved = np.ones(len(self._starts), dtype=bool)
+        self._moved = np.zeros(len(self._starts), dtype=bool)
+        self._look(0)  # nobody does yet: the code is loaded now, not in the first step
+        self._moved[:] = True
         self._note_ends(0)
 
     def _inner(self, sites: NDArray[Any]) -> NDArray[Any]:

@@ -11,6 +11,7 @@ from trihex.cli.group import Commands
 COMMANDS = {
     "demo": "All planners on the three tessellations: a table, pictures and an animation.",
     "plan": "Plan collision-free paths for all robots.",
+    "run": "Let robots run through a world that changes, is unknown, or makes them late.",
     "field": "Compute the N-scheme and the D-scheme.",
     "compare": "Compare planners: total time, gap, steps, seconds.",
     "study": "Do many runs as one table, by many processes or a cluster.",

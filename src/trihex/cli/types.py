@@ -97,6 +97,23 @@ class Metres(click.ParamType):  # type: ignore[type-arg]
         return number
 
 
+class Amount(click.ParamType):  # type: ignore[type-arg]
+    """A number from 0 to `most`."""
+
+    def __init__(self, name: str, most: float) -> None:
+        self.name, self.most = name, most
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        """Return the number."""
+        try:
+            number = float(value)
+        except ValueError:
+            number = -1.0
+        if not 0 <= number <= self.most:
+            raise click.UsageError(f"{_name_of(param)} must be a number from 0 to {self.most:g}, not {value!r}", ctx)
+        return number
+
+
 class Pair(click.ParamType):  # type: ignore[type-arg]
     """Two whole numbers, as in ``118,120``."""
 

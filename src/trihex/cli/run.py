@@ -1,0 +1,184 @@
+"""`trihex run`: robots on their way through a world that changes, is unknown to them, or makes them late."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from trihex.cli.group import DONE, NO
+from trihex.cli.options import PATH, area_options, complete, read_described, robot_options, rule_options, wrong_use
+from trihex.cli.outputs import check_outputs
+from trihex.cli.progress import bar
+from trihex.cli.types import Amount, Name, Share, Whole
+
+
+@click.command("run")
+@click.argument("area", type=PATH, required=False)
+@area_options
+@rule_options
+@robot_options
+@click.option("--planner", type=Name("trihex.execution", "STEPPERS"), help="Who decides in each step. [default: fcost]")
+@click.option("--sense", type=Amount("cells", 100), help="Robots know only what one of them saw, so many cells around.")
+@click.option("--line-of-sight", is_flag=True, help="With --sense: barriers hide what lies behind them.")
+@click.option("--events", type=PATH, metavar="FILE", help="What happens at which step, as .csv or .toml.")
+@click.option("--delays", type=Share(), help="The chance of each robot to be late in a step. [default: 0]")
+@click.option("--resume", type=PATH, metavar="RUN", help="Go on where the run in this file ended, in place of AREA.")
+@click.option("--max-steps", type=Whole(1), default=1_000_000, help="Stop after so many steps. [default: 1000000]")
+@click.option("--out", type=PATH, metavar="RUN", help="What happened, as .npz.")
+@click.option("--summary", type=PATH, metavar="FILE", help="The report as JSON; - writes it to the standard output.")
+@click.option("--picture", type=PATH, metavar="FILE", help="What robots came to know, as .png or .svg.")
+@click.option("--animation", type=PATH, metavar="FILE", help="The robots on their way, as .gif or .mp4.")
+def command(
+    area: Path | None,
+    planner: str | None,
+    sense: float | None,
+    line_of_sight: bool,
+    events: Path | None,
+    delays: float | None,
+    resume: Path | None,
+    max_steps: int,
+    out: Path | None,
+    summary: Path | None,
+    picture: Path | None,
+    animation: Path | None,
+    **options: Any,
+) -> int:
+    """Let robots run through a world that changes, is unknown to them, or makes them late.
+
+    AREA is what `trihex plan` takes. In each step events happen, robots look around, and each is told one safe move.
+
+    Exit status 1: some robots are cut off, or an event was refused. The others arrive and all outputs are written.
+    """
+    from trihex.formats.events import read_events
+    from trihex.formats.run_npz import write_run
+    from trihex.run_report import make_run_report
+
+    _check(out, summary, picture, animation)
+    if line_of_sight and sense is None:
+        raise wrong_use("--line-of-sight is about what robots see: add --sense")
+    happening = read_events(events) if events else ()
+    if resume is not None:
+        told = [name for name, value in {"AREA": area, "--sense": sense, "--planner": planner}.items() if value]
+        if told or delays is not None:
+            raise wrong_use(f"--resume RUN says all itself, so {', '.join(told) or '--delays'} cannot be told")
+        trial = _resumed(resume, happening)
+    elif area is None:
+        raise wrong_use("there is no AREA: name one, or add --resume RUN")
+    else:
+        trial = _begun(area, planner, sense, line_of_sight, happening, delays, options)
+    with bar("running", "robots") as progress:
+        run = trial.run(most_steps=max_steps, progress=progress)
+    if out is not None:
+        with bar("writing", "bytes") as progress:
+            write_run(run, out, progress=progress)
+    report = make_run_report(run, seconds=trial.seconds)
+    _draw(run, picture, animation)
+    return _told(report, summary, is_over=trial.is_over)
+
+
+def _check(out: Path | None, summary: Path | None, picture: Path | None, animation: Path | None) -> None:
+    from trihex.movie import SUFFIXES as MOVIE_SUFFIXES
+    from trihex.picture import SUFFIXES
+
+    check_outputs(
+        (out, (".npz",), "a run"),
+        (summary, (), "a summary"),
+        (picture, SUFFIXES, "a picture"),
+        (animation, MOVIE_SUFFIXES, "a movie"),
+    )
+
+
+def _begun(
+    area: Path,
+    planner: str | None,
+    sense: float | None,
+    line_of_sight: bool,
+    events: Any,
+    delays: float | None,
+    options: dict[str, Any],
+) -> Any:
+    from trihex.execution import STEPPERS
+    from trihex.sensing import Sensor
+    from trihex.trial import Trial
+
+    draft = read_described(area, options)
+    scenario = complete(draft)
+    planner = planner or (draft.planner if draft.planner in STEPPERS else "fcost")
+    sensor = None if sense is None else Sensor(scenario.area.tessellation, sense, line_of_sight)
+    seed = scenario.seed or 0
+    return Trial(scenario, planner, sensor=sensor, events=events, delay=delays or 0.0, seed=seed)
+
+
+def _resumed(path: Path, events: Any) -> Any:
+    from trihex.formats.run_npz import read_run
+    from trihex.trial import resume_trial
+
+    run = read_run(path)
+    late = [str(event) for event in events if event.step <= run.steps]
+    if late:
+        raise wrong_use(f"{path} is past step {run.steps}, so what happens must come later, not {late[0]}")
+    return resume_trial(run, events)
+
+
+def _draw(run: Any, picture: Path | None, animation: Path | None) -> None:
+    from trihex.run_movie import write_run_animation
+    from trihex.run_picture import picture_of_run
+
+    if picture is not None:
+        picture_of_run(run).save(picture)
+    if animation is not None:
+        with bar("drawing", "frames") as progress:
+            write_run_animation(run, animation, progress=progress)
+
+
+def _told(report: Any, summary: Path | None, *, is_over: bool) -> int:
+    """Print the report, tell what is amiss, and return the exit status."""
+    from json import dumps
+
+    from trihex.formats.files import new_file
+
+    numbers = report.as_dict()
+    text = dumps(numbers, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+    if summary is not None and str(summary) != "-":
+        with new_file(summary) as part:
+            part.write_text(text, encoding="utf-8")
+    click.echo(text if str(summary) == "-" else "\n".join(run_lines(report)), nl=str(summary) != "-")
+    complaints = [str(one) for one in report.run.occurrences if not one.is_accepted]
+    if is_over:
+        since = report.run.cut_off_since
+        complaints += [
+            f"robot {robot} is cut off, known after step {since[robot]}" for robot in (since >= 0).nonzero()[0]
+        ]
+    for line in complaints[:20]:
+        click.echo(f"trihex: {line}", err=True)
+    if len(complaints) > 20:
+        click.echo(f"trihex: and {len(complaints) - 20} more", err=True)
+    for conflict in report.audit.conflicts[:10] if is_over else ():
+        click.echo(str(conflict), err=True)
+    return NO if complaints or (is_over and not report.audit.is_clean) else DONE
+
+
+def run_lines(report: Any) -> list[str]:
+    """Return the report in a few lines."""
+    numbers = report.as_dict()
+    price = "" if numbers["price"] is None else f": {100 * numbers['price']:+.1f} %"
+    robots = f"{numbers['tessellation']}, {numbers['robots']} robots, planner {numbers['planner']}"
+    robots += "" if numbers["sense"] is None else f", sensing {numbers['sense']:g} cells"
+    robots += f", late in {100 * numbers['delays']:g} % of the steps" if numbers["delays"] else ""
+    ends = f"{numbers['cut_off']} cut off, {numbers['left']} left, {numbers['broken']} broken"
+    lines = [
+        f"{numbers['area'] or 'area'}: {robots}",
+        f"{numbers['arrived']} arrived in {numbers['steps']} steps, {ends}; {numbers['events']} events, "
+        f"{numbers['refused_events']} refused",
+        f"total time {numbers['total_time']}; with full knowledge and no events {numbers['reference_time']} "
+        f"({numbers['reference_planner']}){price}; lower bound {numbers['lower_bound']}",
+        f"{100 * numbers['known']:.1f} % of the cells known, {numbers['repairs']} repairs touched "
+        f"{numbers['cells_touched']} cells",
+    ]
+    if (took := numbers["milliseconds_a_step"]) is not None:
+        lines.append(f"a step took {took['median']:.2f} ms in the median, {took['worst']:.2f} ms at worst")
+    count = numbers["conflicts"]
+    lines.append("safe: no conflicts" if not count else f"unsafe: {count} conflict{'s' * (count != 1)}")
+    return lines
