@@ -11,10 +11,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from trihex.area import cells_from
 from trihex.errors import ScenarioError
+from trihex.kernels import NOT_REACHED as NOT_REACHED  # users find it here
 from trihex.living import LivingField
 from trihex.record import Record, read_only
 from trihex.scenario import Scenario
-from trihex.settling import NOT_REACHED as NOT_REACHED  # users find it here
 from trihex.settling import settle
 
 _BUDGET = 1 << 16  # cells settled in one call of a kernel, about 1 ms

@@ -50,7 +50,6 @@ def command(
     """
     from trihex.formats import write_plan, write_waypoints
     from trihex.formats import write_scenario as write_scenario_file
-    from trihex.picture import picture_of_plan
 
     given = {"plan": out, "summary": summary, "picture": picture, "waypoints": waypoints, "speed": speed}
     outputs: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
@@ -72,6 +71,8 @@ def command(
         with bar("writing", "parts") as progress:
             write_plan(report.plan, outputs["plan"], progress=progress)
     if "picture" in outputs:
+        from trihex.picture import picture_of_plan
+
         picture_of_plan(report.plan, ground=draft.ground).save(outputs["picture"])
     if "waypoints" in outputs:
         write_waypoints(report.plan, outputs["waypoints"], speed=outputs.get("speed", 1.0))
@@ -84,12 +85,15 @@ def command(
 def _check_outputs(outputs: dict[str, Any], write_scenario: Path | None) -> None:
     """Raise unless all that is to be written can be."""
     from trihex.formats import PLAN_SUFFIXES, WAYPOINT_SUFFIXES
-    from trihex.picture import SUFFIXES
 
+    if outputs.get("picture"):  # what draws is imported only for who draws
+        from trihex.picture import SUFFIXES
+
+        check_outputs((outputs["picture"], SUFFIXES, "a picture"))
     check_outputs(
         (outputs.get("plan"), PLAN_SUFFIXES, "a plan"),
         (outputs.get("summary"), (), "a summary"),
-        (outputs.get("picture"), SUFFIXES, "a picture"),
+        (outputs.get("picture"), (), "a picture"),
         (outputs.get("waypoints"), WAYPOINT_SUFFIXES, "waypoints"),
         (write_scenario, (".toml",), "a scenario"),
     )

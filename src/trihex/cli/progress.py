@@ -4,18 +4,33 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from time import monotonic
+from typing import Any
+
+_DELAY = 1.0  # seconds; until then not even tqdm is imported, which takes a tenth of a second
 
 
 @contextmanager
 def bar(what: str, unit: str) -> Iterator[Callable[[int, int], None]]:
     """Yield a function of (done, total) that moves the bar."""
-    from tqdm import tqdm
+    begin = monotonic()
+    shown: Any = None
 
-    # The bar is gone when the work is done: what stays on the screen is the result.
-    with tqdm(desc=what, unit=f" {unit}", unit_scale=True, disable=None, delay=1, leave=False) as shown:
+    def move(done: int, total: int) -> None:
+        nonlocal shown
+        if shown is None:
+            if monotonic() < begin + _DELAY:
+                return
+            from tqdm import tqdm
 
-        def move(done: int, total: int) -> None:
-            shown.total = total
-            shown.update(done - shown.n)
+            # The bar is gone when the work is done: what stays on the screen is the result.
+            shown = tqdm(desc=what, unit=f" {unit}", unit_scale=True, disable=None, leave=False)
+            shown.start_t = shown.start_t - _DELAY if not shown.disable else None
+        shown.total = total
+        shown.update(done - shown.n)
 
+    try:
         yield move
+    finally:
+        if shown is not None:
+            shown.close()

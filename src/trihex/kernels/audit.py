@@ -28,12 +28,12 @@ NEXT, FIRST, HEAD, TAIL, IS_OPEN = range(5)
 FOUND = types.Array(types.int32, 2, "C")
 
 
-@njit(types.boolean(types.int32), cache=True, nogil=True)
+@njit(nogil=True)
 def _is_blocked(what):
     return what >= BARRIER or what == OUTSIDE
 
 
-@njit(types.boolean(IN_I32, types.int64, types.int64, types.int64, IN_I32, types.int64), cache=True, nogil=True)
+@njit(nogil=True)
 def _is_corner_closed(place, site, target, vertex, ring, rule):
     """Tell whether barriers around `vertex` forbid the move from `site` to `target` under `rule`."""
     around = len(ring)
@@ -57,11 +57,7 @@ def _is_corner_closed(place, site, target, vertex, ring, rule):
     return one_way > 0 and other_way > 0
 
 
-@njit(
-    types.void(OUT_I64, FOUND, *[types.int64] * 7),
-    cache=True,
-    nogil=True,
-)
+@njit(nogil=True)
 def _note(state, found, code, robot, other, a, b, c, d):
     """Count a conflict, and keep it while there is room."""
     if state[COUNT] < found.shape[0]:

@@ -15,22 +15,7 @@ DEAD = 2**31 - 1
 STAMP, SENT, FAILED, LOOKS = range(4)
 
 
-@njit(
-    types.int64(
-        types.int64,
-        IN_I32,
-        IN_U16,
-        TABLE_I32,
-        TABLE_I32,
-        IN_I32,
-        IN_U16,
-        types.int64,
-        types.boolean,
-        OUT_I32,
-    ),
-    cache=True,
-    nogil=True,
-)
+@njit(nogil=True)
 def _list_ahead(node, steps, moves, offset, vertex, ring, via, edge_count, has_vertices, ahead):
     """List the nodes that can be entered from `node` (the same that it can be entered from); the nearest comes last."""
     size = len(moves)

@@ -14,7 +14,7 @@ import numpy as np
 from numba import njit, types
 
 from trihex.kernels.prefetch import prefetch
-from trihex.kernels.signatures import IN_I32, IN_U16, MASK, OUT_I32, OUT_I64, OUT_U16, TABLE_I32, _array
+from trihex.kernels.signatures import IN_I32, IN_U16, MASK, OUT_I32, OUT_I64, _array
 
 NOT_REACHED = 2**31 - 1
 FARTHEST = 2_000_000_000  # distances of open cells stay below it, so that sums of a few moves never overflow
@@ -161,40 +161,3 @@ def make_settle(slots, is_masked):
         state[REASON] = reason
 
     return settle
-
-
-@njit(
-    types.int64(IN_I32, TABLE_I32, IN_I32, IN_U16, OUT_I32, OUT_I32, OUT_U16),
-    cache=True,
-    nogil=True,
-)
-def spread(sources, offset, cost, moves, distance, queue, queued):
-    """Fill `distance` from `sources` by correcting labels along open moves, first in first out."""
-    size = len(queue)
-    head = 0
-    tail = 0
-    count = 0
-    for i in range(len(sources)):
-        distance[sources[i]] = 0
-        queued[sources[i]] = 1
-        queue[tail] = sources[i]
-        tail = tail + 1 if tail + 1 < size else 0
-        count += 1
-    while count > 0:
-        site = queue[head]
-        head = head + 1 if head + 1 < size else 0
-        count -= 1
-        queued[site] = 0
-        bits = moves[site]
-        for k in range(len(cost)):
-            if bits >> k & 1:
-                target = site + offset[site & 1, k]
-                value = distance[site] + cost[k]
-                if value < distance[target]:
-                    distance[target] = value
-                    if not queued[target]:
-                        queued[target] = 1
-                        queue[tail] = target
-                        tail = tail + 1 if tail + 1 < size else 0
-                        count += 1
-    return count

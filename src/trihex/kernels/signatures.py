@@ -2,6 +2,11 @@
 
 from numba import types
 
+from trihex import kernels
+
+if kernels.is_alone:
+    kernels.load_numba_alone()
+
 
 def _array(dtype, readonly):
     return types.Array(dtype, 1, "C", readonly=readonly)

@@ -13,7 +13,7 @@ LONGEST_ROW = 160
 NO_NUMBER, NO_WORD, TOO_FEW, TOO_MANY = 1, 2, 3, 4
 
 
-@njit(types.int64(OUT_U8, types.int64, types.int64), nogil=True, cache=True)
+@njit(nogil=True)
 def _put_number(text, at, value):
     """Write a number from 0; return where the text goes on."""
     digits = 1
@@ -27,7 +27,7 @@ def _put_number(text, at, value):
     return at + digits
 
 
-@njit(types.int64(OUT_U8, types.int64, IN_U8, types.int64, types.int64), nogil=True, cache=True)
+@njit(nogil=True)
 def _put_word(text, at, letters, first, last):
     for i in range(first, last):
         text[at] = letters[i]
