@@ -102,13 +102,13 @@ def _message(model: type[Table], document: object, detail: ErrorDetails) -> str:
 
 
 def _path(document: object, places: tuple[int | str, ...]) -> str:
-    """Return the path of a mistake; a number counts entries only where the file has a list."""
+    """Return the path of a mistake in the file, without the tables and lists that only stand for a bare value."""
     parts = []
     for part in places:
-        if isinstance(part, str):
+        if isinstance(part, str) and isinstance(document, dict):
             parts.append(f"{part:.60}")
-            document = document.get(part) if isinstance(document, dict) else None
-        elif isinstance(document, list):
+            document = document.get(part)
+        elif isinstance(part, int) and isinstance(document, list):
             parts.append(str(part))
             document = document[part]
     return ".".join(parts)

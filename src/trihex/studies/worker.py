@@ -105,6 +105,7 @@ class Worker:
         self._closed = True
         if (child := self._child) is not None:
             child.kill()
+            child.wait()
 
 
 def _connections(child: subprocess.Popen[bytes]) -> tuple[Connection, Connection]:
