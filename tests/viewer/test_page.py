@@ -57,6 +57,36 @@ def test_it_plays_offline_and_asks_nobody(browser, tmp_path, plan):
     context.close()
 
 
+def test_two_plans_are_shared_side_by_side(open_viewer, browser, tmp_path, plan):
+    """The viewer saves both; the file plays them on one clock."""
+    shown = open_viewer(plan)
+    shown.page.get_by_label("Planner beside it").select_option("fcost")
+    shown.page.get_by_label("Cells beside it").select_option("square")
+    shown.press("Compare")
+    shown.wait("app.runs[1] && !app.job")
+    table = shown.table()
+    shown.press("Save…")
+    shown.page.get_by_role("dialog").get_by_label("What to save").select_option("page")
+    shown.page.get_by_role("dialog").get_by_label("Name").fill("both.html")
+    shown.press("Save in folder")
+    shown.wait("document.querySelector('.status').textContent === 'Saved both.html.'")
+    alone = Shown(browser.new_page(viewport={"width": 1100, "height": 700}), shown.artefacts)
+    alone.page.goto((tmp_path / "both.html").as_uri())
+    alone.wait("app.runs[1]")
+    assert alone.table()["Total time"] == table["Total time"] and len(table["Total time"]) == 2
+    alone.page.locator(".scrub").fill("4")
+    alone.wait("app.runs.every((run) => run.playback.step === 4)")
+    area = th.Area("square", plan.scenario.area.barriers)
+    other = make_plan(th.Scenario(area, plan.scenario.destinations, plan.scenario.robots))
+    for pane, one in ((0, plan), (1, other)):
+        there = next(cells for step, cells in enumerate(one.cells_by_step()) if step == 4)
+        seen = sum(is_near(alone.colours(pane, (0, -0.2)), c, 40).ravel() for c in (palette.MOVING, palette.WAITING)) > 0
+        assert set(np.flatnonzero(seen)) <= set(there) and np.count_nonzero(seen) > 10
+    alone.keep("page-of-two-plans")
+    assert alone.faults == shown.faults == []
+    alone.page.close()
+
+
 def test_the_file_obeys_a_policy_and_holds_no_foreign_address(tmp_path, plan):
     th.write_page(plan, tmp_path / "plan.html")
     text = (tmp_path / "plan.html").read_text()

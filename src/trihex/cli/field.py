@@ -42,6 +42,7 @@ def command(
     """
     import numpy as np
 
+    from trihex.formats.field_npy import write_field
     from trihex.picture import SUFFIXES, picture_of_d_scheme, picture_of_n_scheme
     from trihex.schemes import NOT_REACHED, make_d_scheme, make_n_scheme
 
@@ -54,13 +55,13 @@ def command(
     scenario = complete(read_described(area, options), needs_robots=False)
     n_scheme = make_n_scheme(scenario)
     if out:
-        _save(n_scheme.distance, out)
+        write_field(n_scheme.distance, out)
     if picture:
         picture_of_n_scheme(n_scheme).save(picture)
     if directions or directions_picture:
         d_scheme = make_d_scheme(n_scheme)
         if directions:
-            _save(d_scheme.directions, directions)
+            write_field(d_scheme.directions, directions)
         if directions_picture:
             picture_of_d_scheme(d_scheme).save(directions_picture)
     reached = n_scheme.distance[n_scheme.distance != NOT_REACHED]
@@ -70,15 +71,6 @@ def command(
     )
     if generations:
         click.echo(f"{_draw_generations(scenario, generations)} generations in {generations}")
-
-
-def _save(array: Any, path: Path) -> None:
-    import numpy as np
-
-    from trihex.formats.files import new_file
-
-    with new_file(path) as part:
-        np.save(part, array)
 
 
 def _draw_generations(scenario: Any, folder: Path) -> int:

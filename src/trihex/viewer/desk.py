@@ -44,6 +44,7 @@ from trihex.viewer.show import show_plan
 MAX_AUTOMATON_CELLS = 2**20
 _MOST_PLANS = 8
 _MOST_ACTIONS = 2**29
+_PLACE = ("cell_size", "robot_radius", "resolution", "threshold", "invert", "unknown")
 _TICK = 0.1  # seconds between two frames of progress
 
 Arrays = Mapping[str, NDArray[Any]]
@@ -135,7 +136,7 @@ class Desk:
         if form in ("starts", "scen"):
             draft = call.draft(request)
             return _drafted(replace(draft, robots=read_starts(path, draft.area), seed=None))
-        options: dict[str, Any] = {"cell_size": request.cell_size, "robot_radius": request.robot_radius}
+        options = {name: getattr(request, name) for name in _PLACE}
         draft = read_draft(path, request.tessellation, progress=call.progress("reading"), **options)
         return _drafted(_drawn(draft))
 
@@ -206,6 +207,7 @@ class Desk:
 
     def _save(self, request: ask.Save, call: _Call) -> Bundle:
         record: Draft | Report = call.draft(request) if request.plan is None else self._report(request.plan)
+        beside = None if request.beside is None else self._report(request.beside)
         progress = call.progress("saving")
         if request.in_folder:
             if self.folder is None:
@@ -213,11 +215,11 @@ class Desk:
             path = self.folder.resolve(request.name)
             if path.exists() and not request.overwrite:
                 return Bundle({"exists": True, "name": request.name}, {})
-            export(record, request.what, path, request.planner, progress)
+            export(record, request.what, path, request.planner, progress, beside)
             return Bundle({"saved": request.name}, {})
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder, _plain_name(request.name))
-            export(record, request.what, path, request.planner, progress)
+            export(record, request.what, path, request.planner, progress, beside)
             content = np.frombuffer(path.read_bytes(), dtype=np.uint8)
             return Bundle({"name": path.name}, {"content": content})
 

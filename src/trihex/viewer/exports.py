@@ -18,12 +18,14 @@ from trihex.formats import (
     write_waypoints,
 )
 from trihex.formats.draft import Draft, draft_of
+from trihex.formats.field_npy import write_field
 from trihex.formats.report_json import write_report
 from trihex.movie import SUFFIXES as MOVIE_SUFFIXES
 from trihex.movie import write_animation
 from trihex.picture import SUFFIXES as PICTURE_SUFFIXES
 from trihex.picture import picture_of_area, picture_of_plan
 from trihex.report import Report
+from trihex.schemes import make_n_scheme
 from trihex.viewer.page import SUFFIXES as PAGE_SUFFIXES
 from trihex.viewer.page import write_report_page
 
@@ -31,6 +33,7 @@ from trihex.viewer.page import write_report_page
 EXPORTS: dict[str, tuple[tuple[str, ...], bool]] = {
     "scenario": (SCENARIO_SUFFIXES, False),
     "area": (AREA_SUFFIXES, False),
+    "field": ((".npy",), False),
     "starts": ((".csv",), False),
     "plan": (PLAN_SUFFIXES, True),
     "page": (PAGE_SUFFIXES, True),
@@ -42,9 +45,14 @@ EXPORTS: dict[str, tuple[tuple[str, ...], bool]] = {
 
 
 def export(
-    record: Draft | Report, what: str, path: Path, planner: str | None, progress: Callable[[int, int], None]
+    record: Draft | Report,
+    what: str,
+    path: Path,
+    planner: str | None,
+    progress: Callable[[int, int], None],
+    beside: Report | None = None,
 ) -> None:
-    """Write `what` of a draft or of a plan and its report.
+    """Write `what` of a draft or of a plan and its report; a page shows the plan `beside` it as well.
 
     Raises
     ------
@@ -62,6 +70,8 @@ def export(
         write_scenario(draft.complete(), path, planner=planner or "")
     elif what == "area":
         write_area(draft.area, path)
+    elif what == "field":
+        write_field(make_n_scheme(draft.complete()).distance, path)
     elif what == "starts":
         write_starts(draft.area, draft.complete().robots, path)
     elif what == "picture":
@@ -69,14 +79,16 @@ def export(
         start = picture_of_area(draft.complete() if has_destination else draft.area)
         (picture_of_plan(report.plan) if report else start).save(path)
     elif report is not None:
-        _export_plan(report, what, path, progress)
+        _export_plan(report, what, path, progress, beside)
 
 
-def _export_plan(report: Report, what: str, path: Path, progress: Callable[[int, int], None]) -> None:
+def _export_plan(
+    report: Report, what: str, path: Path, progress: Callable[[int, int], None], beside: Report | None
+) -> None:
     if what == "plan":
         write_plan(report.plan, path)
     elif what == "page":
-        write_report_page(report, path)
+        write_report_page(report, path, beside)
     elif what == "movie":
         write_animation(report.plan, path, progress=progress)
     elif what == "waypoints":

@@ -15,7 +15,7 @@ from trihex.formats.ros import parse_yaml
 
 SUFFIXES = (
     *(".map", ".txt", ".toml", ".npz", ".csv", ".parquet", ".scen"),
-    *(".yaml", ".yml", ".geojson", ".wkt", ".png", ".pgm", ".bmp"),
+    *(".yaml", ".yml", ".geojson", ".json", ".wkt", ".png", ".pgm", ".bmp", ".gif", ".jpg", ".jpeg"),
 )
 _MOST_FILES = 500
 _MOST_DEPTH = 3

@@ -13,6 +13,8 @@ from importlib.resources import files
 from string import Template
 from typing import Any
 
+import numpy as np
+
 from trihex import palette
 from trihex.formats.files import new_file, suffix_of
 from trihex.plan import Plan
@@ -78,8 +80,15 @@ def page_with(settings: dict[str, Any], first: Bundle | None, title: str, *, is_
     return html, policy
 
 
-def write_page(plan: Plan, path: str | os.PathLike[str]) -> None:
+def write_page(plan: Plan, path: str | os.PathLike[str], *, beside: Plan | None = None) -> None:
     """Write a plan as one HTML file that plays it in any browser, without a network.
+
+    Parameters
+    ----------
+    plan : Plan
+    path : path
+    beside : Plan, optional
+        Another plan, to be played beside it on the same clock.
 
     Raises
     ------
@@ -90,13 +99,16 @@ def write_page(plan: Plan, path: str | os.PathLike[str]) -> None:
     OSError
         If the file cannot be written.
     """
-    write_report_page(make_report(plan), path)
+    write_report_page(make_report(plan), path, None if beside is None else make_report(beside))
 
 
-def write_report_page(report: Report, path: str | os.PathLike[str]) -> None:
+def write_report_page(report: Report, path: str | os.PathLike[str], beside: Report | None = None) -> None:
     """Write a plan with its report as one HTML file; see `write_page`."""
     suffix_of(path, SUFFIXES, "a page")
     first = show_plan(report, make_n_scheme(report.plan.scenario))
+    if beside is not None:
+        second = encode(*show_plan(beside, make_n_scheme(beside.plan.scenario)))
+        first = Bundle(first.header, {**first.arrays, "beside": np.frombuffer(second, dtype=np.uint8)})
     name = report.plan.scenario.area.name
     title = f"{report.plan.planner or 'plan'}{f' on {name}' if name else ''} - trihex"
     html, _ = page_with(settings_of(host="alone"), first, title, is_alone=True)

@@ -33,6 +33,10 @@ class OpenFile(Request):
     tessellation: _Text | None = None
     cell_size: _Positive | None = None
     robot_radius: Annotated[float, Field(ge=0, allow_inf_nan=False)] | None = None
+    resolution: _Positive | None = None
+    threshold: Annotated[float, Field(ge=0, le=1)] | None = None
+    invert: bool | None = None
+    unknown: _Text | None = None
 
 
 class Generate(Request):
@@ -75,13 +79,14 @@ class Bound(Request):
 
 
 class Save(Request):
-    """A file, into the folder (`in_folder`) or as an answer."""
+    """A file, into the folder (`in_folder`) or as an answer; a page may hold the plan `beside` as well."""
 
     what: _Text
     name: _Text
     in_folder: bool
     overwrite: bool = False
     plan: _Text | None = None
+    beside: _Text | None = None
     planner: _Text | None = None
 
 

@@ -829,8 +829,8 @@ const TOOLS = [
 ];
 const SPEEDS = [0.5, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96];
 const EXPORT_WORDS = {
-  scenario: "Scenario: area, destinations, robots, rules", area: "Area: barriers only", starts: "Starts: cells of the robots",
-  plan: "Plan: what each robot does at each step", page: "Page: one HTML file that plays anywhere, to share",
+  scenario: "Scenario: area, destinations, robots, rules", area: "Area: barriers only", field: "Field: the distance of each cell", starts: "Starts: cells of the robots",
+  plan: "Plan: what each robot does at each step", page: "Page: one HTML file that plays anywhere, to share; both plans if there are two",
   movie: "Movie", picture: "Picture", waypoints: "Waypoints in metres", summary: "Summary: the numbers of the plan",
 };
 const number = (value) => (value === null || value === undefined ? "–" : Math.round(value).toLocaleString("en").replace(/,/g, " "));
@@ -1049,9 +1049,11 @@ export class App {
   take({ header, arrays }, { isEdit = true } = {}) {
     const doc = documentOf(header.document, arrays);
     const run = header.summary ? { ...header, playback: new Playback({ header, arrays }, doc), doc } : null;
+    // A file may hold the plan beside it as well.
+    const beside = arrays.beside ? runOf(decode(arrays.beside.slice())) : null;
     if (header.planner && this.planner && this.settings.planners[header.planner]) this.planner.lastChild.value = header.planner;
-    if (isEdit) this.edit(doc, [run, null]);
-    else this.set(doc, [run, null]);
+    if (isEdit) this.edit(doc, [run, beside]);
+    else this.set(doc, [run, beside]);
     if (run) {
       this.choose("move");
       this.say("Press Play.");
@@ -1201,10 +1203,8 @@ export class App {
     this.isPlaying = false;
     const answer = await this.ask(request, arraysOf(doc), "Planning…");
     if (!answer || this.doc !== doc) return;
-    const own = documentOf(answer.header.document, answer.arrays);
     // The plan plays on the very document of the page, so that an edit is noticed.
-    const place = which ? own : doc;
-    const run = { ...answer.header, playback: new Playback(answer, place), doc: place };
+    const run = runOf(answer, which ? null : doc);
     this.past.push({ doc, runs: this.runs });
     this.future = [];
     this.endGrowth();
@@ -1967,9 +1967,14 @@ export class App {
     const { files, folder } = answer.header;
     const cells = select("Cells", ["as the file says", ...this.settings.tessellations], () => {});
     const size = numberField("Cell size in metres", "", { min: 0, step: "any", placeholder: "maps in metres" }), radius = numberField("Robot radius in metres", "", { min: 0, step: "any", placeholder: "0" });
+    const pixel = numberField("Width of a pixel in metres", "", { min: 0, step: "any", placeholder: "images in metres" }), bright = numberField("Free from brightness", "", { min: 0, max: 1, step: "any", placeholder: "0.5" });
+    const check = (text) => h("label", { class: "check" }, h("input", { type: "checkbox" }), text);
+    const invert = check("dark is free"), unknown = check("unknown is free");
+    const numberOf = (field) => (field.lastChild.value === "" ? null : Number(field.lastChild.value));
     const wish = () => ({
       tessellation: cells.lastChild.value === "as the file says" ? null : cells.lastChild.value,
-      cell_size: size.lastChild.value === "" ? null : Number(size.lastChild.value), robot_radius: radius.lastChild.value === "" ? null : Number(radius.lastChild.value),
+      cell_size: numberOf(size), robot_radius: numberOf(radius), resolution: numberOf(pixel), threshold: numberOf(bright),
+      invert: invert.firstChild.checked || null, unknown: unknown.firstChild.checked ? "free" : null,
     });
     const list = h("ul", { class: "files" });
     const fill = (text) => list.replaceChildren(...files.filter((name) => name.toLowerCase().includes(text.toLowerCase())).map((name) =>
@@ -1982,6 +1987,7 @@ export class App {
       if (file) this.openFile(file, options);
     } });
     this.open("Open", h("div", { class: "grid" }, cells, size, radius),
+      h("details", { class: "inner" }, h("summary", {}, "Images and maps of ROS"), h("div", { class: "grid" }, pixel, bright), h("div", { class: "row" }, invert, unknown)),
       folder ? [h("p", { class: "note" }, files.length ? `In ${folder}` : `There is nothing to open in ${folder}.`), files.length > 8 ? filter : null, list] : null,
       h("label", { class: "field" }, h("span", {}, "Or a file of this computer"), upload));
   }
@@ -2019,7 +2025,8 @@ export class App {
     const message = h("p", { class: "note", role: "status" });
     const save = async (inFolder, overwrite = false) => {
       const plan = run && (exports[what.value].plan || what.value === "picture") ? run.plan : null;
-      const request = { op: "save", what: what.value, name: name.value, in_folder: inFolder, overwrite, plan, planner: this.planner.lastChild.value, ...this.request };
+      const beside = what.value === "page" ? this.runs[1]?.plan ?? null : null;
+      const request = { op: "save", what: what.value, name: name.value, in_folder: inFolder, overwrite, plan, beside, planner: this.planner.lastChild.value, ...this.request };
       message.textContent = "Saving…";
       const answer = await this.ask(request, arraysOf(this.doc));
       if (!answer) return void (message.textContent = this.status.textContent);
@@ -2044,6 +2051,11 @@ export class App {
     h("table", { class: "keys" }, keys.map(([key, words]) => h("tr", {}, h("th", { scope: "row" }, key), h("td", {}, words)))),
     h("p", { class: "note" }, "Wheel or pinch to zoom; drag with the right button, Shift or two fingers to move the picture."));
   }
+}
+
+function runOf({ header, arrays }, doc = null) {
+  const place = doc ?? documentOf(header.document, arrays);
+  return { ...header, playback: new Playback({ header, arrays }, place), doc: place };
 }
 
 const sameField = (one, other) => one === other || (one.barriers === other.barriers && one.destinations === other.destinations &&
