@@ -209,8 +209,9 @@ def _ends(run: Run) -> Iterator[Conflict]:
     """Find robots that still go though they could arrive, and those that are said to be where they are not."""
     area, kinds = run.scenario.area, {"leave": LEFT, "break": BROKEN}
     barriers, destinations = deque(run.worlds(), 1).pop() if run.steps else (area.barriers, run.scenario.destinations)
-    going = np.flatnonzero(run.state_of_robot == GOING)
-    cells = list(run.cells_by_step())[-1]
+    cells = deque(run.cells_by_step(), 1).pop()
+    going = np.flatnonzero((run.state_of_robot == GOING) & (cells >= 0) & (cells < area.cell_count))
+    going = going[~barriers.flat[cells[going]]]  # who left the area or stands on a barrier is charged with that
     if going.size and destinations.size:
         last = replace(run.scenario, area=replace(area, barriers=barriers), destinations=destinations, robots=going[:0])
         for robot in going[is_reachable(last, cells[going])].tolist():
@@ -234,5 +235,6 @@ def _xy(area: Area, cell: int) -> tuple[int, int]:
 def _conflict(area: Area, kind: str, step: _Step, rows: list[Any], text: str) -> Conflict:
     """Return a conflict of the robots in `rows` of a step; {a} to {d} in `text` are their cells, from and to."""
     robots = tuple(int(step.robots[i]) for i in rows)
-    cells = tuple(_xy(area, int(cell)) for i in rows for cell in (step.here[i], step.there[i]) if cell >= 0)
+    pairs = ((step.here[i], step.there[i] if step.there[i] >= 0 else step.here[i]) for i in rows)
+    cells = tuple(_xy(area, int(cell)) for pair in pairs for cell in pair)
     return Conflict(kind, step.number, robots, cells, text.format(*robots, **dict(zip("abcd", cells, strict=False))))
