@@ -29,7 +29,7 @@ _ENTRIES: Entries = {
     "delay": ("f", 0),
     "run_seed": ("i", 0),
     "events": ("i", 2),  # step, kind, x, y, to_x, to_y, robot, steps
-    "refusals": ("U", 1),
+    "refusals": ("u", 1),  # UTF-8, a line for each event
     "changes": ("i", 2),  # event, which of `_CHANGES`, cell
     "starts": ("i", 1),
     "joined": ("i", 1),
@@ -50,7 +50,7 @@ def write_run(run: Run, path: str | os.PathLike[str], *, progress: Callable[[int
         numbers = [*(event.cell or (_NONE, _NONE)), *(event.to or (_NONE, _NONE))]
         numbers += [_NONE if value is None else value for value in (event.robot, event.steps)]
         events.append([event.step, list(KINDS).index(event.kind), *numbers])
-        refusals.append(one.refusal[:250])
+        refusals.append(one.refusal.replace("\n", " "))
         changes += [[number, which, cell] for which, name in enumerate(_CHANGES) for cell in getattr(one, name)]
     sensor = run.sensor
     pack(
@@ -63,7 +63,7 @@ def write_run(run: Run, path: str | os.PathLike[str], *, progress: Callable[[int
             "delay": float(run.delay),
             "run_seed": run.seed,
             "events": np.array(events, dtype=np.int64).reshape(-1, 8),
-            "refusals": np.array(refusals, dtype=np.str_),
+            "refusals": np.frombuffer("\n".join(refusals).encode(), dtype=np.uint8),
             "changes": np.array(changes, dtype=np.int64).reshape(-1, 3),
             "starts": run.robots,
             "joined": run.joined,
@@ -115,7 +115,8 @@ def read_run(path: str | os.PathLike[str]) -> Run:
 
 
 def _occurrences(arrays: dict[str, Any], cells: int, path: object) -> tuple[Occurrence, ...]:
-    events, refusals, changes = arrays["events"], arrays["refusals"], arrays["changes"]
+    events, changes = arrays["events"], arrays["changes"]
+    refusals = arrays["refusals"].tobytes().decode(errors="replace").split("\n") if len(events) else []
     if events.shape[1] != 8 or len(refusals) != len(events) or changes.shape[1] != 3:
         raise FormatError(f"{path}: events, refusals and changes do not fit each other")
     if changes.size and (changes.min() < 0 or (changes.max(axis=0) >= (len(events), len(_CHANGES), cells)).any()):
@@ -125,7 +126,7 @@ def _occurrences(arrays: dict[str, Any], cells: int, path: object) -> tuple[Occu
         own = changed[number]
         own[_CHANGES[which]] = (*own.get(_CHANGES[which], ()), cell)
     result = []
-    for (step, kind, *numbers), refusal, own in zip(events.tolist(), refusals.tolist(), changed, strict=True):
+    for (step, kind, *numbers), refusal, own in zip(events.tolist(), refusals, changed, strict=True):
         if not 0 <= kind < len(KINDS):
             raise FormatError(f"{path}: there is no event of kind {kind}")
         x, y, to_x, to_y = numbers[:4]
