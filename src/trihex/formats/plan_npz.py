@@ -156,7 +156,7 @@ def unpack(content: bytes, path: object, entries: Entries, version: int, what: s
 
 def scenario_from(arrays: dict[str, Any], path: object) -> Scenario:
     """Return the scenario in the entries of a file."""
-    text = {name: str(arrays[name]) for name, (kind, _) in SCENARIO_ENTRIES.items() if kind == "U"}
+    text = {name: arrays[name] for name, (kind, _) in SCENARIO_ENTRIES.items() if kind == "U"}
     seed, capacity = int(arrays["seed"]), int(arrays["destination_capacity"])
     tessellation = Tessellation(text["tessellation"], text["neighbourhood"], text["costs"])
     return Scenario(
@@ -189,7 +189,7 @@ def _unpacked(archive: zipfile.ZipFile, path: object, entries: Entries, what: st
     unpacked = sum(info.file_size for info in infos.values())
     if unpacked > MAX_UNPACKED:
         raise FormatError(f"{path}: must unpack to at most {MAX_UNPACKED} bytes, not {unpacked}")
-    arrays = {}
+    arrays: dict[str, Any] = {}
     for name, (kind, axes) in entries.items():
         with archive.open(infos[name]) as file:
             if npy.read_magic(file) != (1, 0):
@@ -204,6 +204,9 @@ def _unpacked(archive: zipfile.ZipFile, path: object, entries: Entries, what: st
         if len(raw) != size:
             raise FormatError(f"{path}: entry {name!r} must be {size} bytes long, not {len(raw)}")
         # A byte other than 0 and 1 makes a bool that kernels misread.
+        if kind == "U":  # decoded here: numpy would take numbers for letters that are none
+            arrays[name] = raw.decode("utf-32-be" if dtype.str[0] == ">" else "utf-32-le").rstrip("\0")
+            continue
         items = np.frombuffer(raw, dtype=dtype)
         if kind == "b" and items.size and items.view(np.uint8).max() > 1:
             items = items.view(np.uint8) != 0
