@@ -26,6 +26,18 @@ def test_area_round_trip(folder, name, area):
     assert again.name == "area"
 
 
+@settings(deadline=None, max_examples=25)
+@given(area=areas())
+def test_an_area_goes_from_each_format_to_each_other(folder, area):
+    suffixes = ("map", "txt", "toml", "png", "pgm", "bmp")
+    for one, other in ((one, other) for one in suffixes for other in suffixes):
+        write_area(area, folder / f"one.{one}")
+        write_area(read_area(folder / f"one.{one}", area.tessellation), folder / f"other.{other}")
+        again = read_area(folder / f"other.{other}", None if one == other == "toml" else area.tessellation)
+        assert np.array_equal(again.barriers, area.barriers)
+        assert again.tessellation == area.tessellation
+
+
 @settings(deadline=None, max_examples=50)
 @given(scenario=scenarios())
 def test_letters_round_trip(folder, scenario):

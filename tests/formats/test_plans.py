@@ -36,6 +36,20 @@ def test_npz_round_trip(folder, plan, name, frame):
     assert path.read_bytes() == before
 
 
+@settings(deadline=None, max_examples=25)
+@given(plan=walks())
+def test_a_plan_goes_from_each_format_to_each_other(folder, plan):
+    """The command `convert` is no more than reading and writing."""
+    suffixes = ("csv", "npz", "parquet")
+    for one, other in ((one, other) for one in suffixes for other in suffixes):
+        write_plan(plan, folder / f"one.{one}")
+        write_plan(read_plan(folder / f"one.{one}", plan.scenario), folder / f"other.{other}")
+        again = read_plan(folder / f"other.{other}", plan.scenario)
+        assert np.array_equal(again.scenario.robots, plan.scenario.robots)
+        assert np.array_equal(again.actions, plan.actions)
+        assert np.array_equal(again.first_action, plan.first_action)
+
+
 def test_a_frame_with_a_radius_is_kept(tmp_path):
     area = Area(Tessellation("hexagonal"), np.zeros((1, 3)), "hall", Frame(0.7, (1, 2), 0.5, 0.15))
     plan = plan_from_lists(Scenario(area, [(2, 0)], [(0, 0)]), [[2, 1]])

@@ -154,11 +154,13 @@ def test_bad_toml(tmp_path, text, message):
         read_draft(path)
 
 
-def test_starts_round_trip(tmp_path):
-    area = Area("square", np.zeros((20, 30)))
-    robots = np.random.default_rng(0).permutation(600)
-    write_starts(area, robots, tmp_path / "starts.csv")
-    assert read_starts(tmp_path / "starts.csv", area).tolist() == robots.tolist()
+@settings(deadline=None, max_examples=50)
+@given(height=st.integers(1, 40), width=st.integers(1, 40), count=st.integers(0, 1600), seed=st.integers(0, 99))
+def test_starts_round_trip(folder, height, width, count, seed):
+    area = Area("square", np.zeros((height, width)))
+    robots = np.random.default_rng(seed).permutation(height * width)[:count]
+    write_starts(area, robots, folder / "starts.csv")
+    assert read_starts(folder / "starts.csv", area).tolist() == robots.tolist()
 
 
 @pytest.mark.parametrize(
