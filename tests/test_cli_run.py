@@ -100,3 +100,12 @@ def test_wrong_use_is_told_in_one_line(folder, command, why):
     result = run(*command, status=2)
     assert len(result.stderr.splitlines()) == 1
     assert re.search(why, result.stderr), result.stderr
+
+
+def test_a_plan_is_followed_in_its_order(folder):
+    CliRunner().invoke(main, ["plan", "world.txt", "--out", "plan.npz"])
+    punctual = run("--plan", "plan.npz").stdout
+    assert "3 arrived" in punctual and punctual.endswith("safe: no conflicts\n")
+    run("--plan", "plan.npz", "--delays", "0.3", "--seed", "1", "--out", "run.npz")
+    assert th.read_run("run.npz").arrived.all() and th.read_run("run.npz").delay == 0.3
+    assert "--sense cannot be told" in run("--plan", "plan.npz", "--sense", "2", status=2).stderr

@@ -61,6 +61,9 @@ if TYPE_CHECKING:
     from trihex.generators import make_warehouse_area as make_warehouse_area
     from trihex.living import LivingField as LivingField
     from trihex.movie import write_animation as write_animation
+    from trihex.passing import Follower as Follower
+    from trihex.passing import PassingOrder as PassingOrder
+    from trihex.passing import make_passing_order as make_passing_order
     from trihex.picture import Picture as Picture
     from trihex.picture import picture_of_area as picture_of_area
     from trihex.picture import picture_of_d_scheme as picture_of_d_scheme
@@ -114,6 +117,7 @@ _MODULE_OF_NAME = {
     "Event": "events",
     "Execution": "execution",
     "ExecutionError": "errors",
+    "Follower": "passing",
     "FormatError": "errors",
     "Frame": "frame",
     "GENERATORS": "generators",
@@ -123,6 +127,7 @@ _MODULE_OF_NAME = {
     "MissingExtraError": "errors",
     "NScheme": "schemes",
     "Occurrence": "events",
+    "PassingOrder": "passing",
     "Picture": "picture",
     "Plan": "plan",
     "PlanError": "errors",
@@ -159,6 +164,7 @@ _MODULE_OF_NAME = {
     "make_lower_bound": "bounds",
     "make_maze_area": "generators",
     "make_n_scheme": "schemes",
+    "make_passing_order": "passing",
     "make_plan": "planners",
     "make_random_area": "generators",
     "make_report": "report",

@@ -92,14 +92,14 @@ class RunReport(Record):
         }
 
 
-def make_run_report(run: Run, *, reference: str = "fcost", seconds: Sequence[float] = ()) -> RunReport:
+def make_run_report(run: Run, *, reference: Plan | str = "fcost", seconds: Sequence[float] = ()) -> RunReport:
     """Judge a run, plan the same with full knowledge, and put the numbers together.
 
     Parameters
     ----------
     run : Run
-    reference : str
-        Which planner to compare with.
+    reference : Plan or str
+        What to compare with: a plan, or the planner that makes it.
     seconds : sequence of float
         How long each step took, as `Trial.seconds` has it.
 
@@ -113,5 +113,6 @@ def make_run_report(run: Run, *, reference: str = "fcost", seconds: Sequence[flo
     (0.0, True)
     """
     n_scheme = make_n_scheme(run.scenario)
-    plan = make_plan(run.scenario, reference, n_scheme=n_scheme)
-    return RunReport(run, audit_run(run), plan, make_lower_bound(n_scheme), tuple(seconds))
+    if isinstance(reference, str):
+        reference = make_plan(run.scenario, reference, n_scheme=n_scheme)
+    return RunReport(run, audit_run(run), reference, make_lower_bound(n_scheme), tuple(seconds))

@@ -24,6 +24,7 @@ from trihex.cli.types import Amount, Name, Share, Whole
 @click.option("--line-of-sight", is_flag=True, help="With --sense: barriers hide what lies behind them.")
 @click.option("--events", type=PATH, metavar="FILE", help="What happens at which step, as .csv or .toml.")
 @click.option("--delays", type=Share(), help="The chance of each robot to be late in a step. [default: 0]")
+@click.option("--plan", type=PATH, metavar="PLAN", help="Follow this plan, .npz, in its order, in place of AREA.")
 @click.option("--resume", type=PATH, metavar="RUN", help="Go on where the run in this file ended, in place of AREA.")
 @click.option("--max-steps", type=Whole(1), default=1_000_000, help="Stop after so many steps. [default: 1000000]")
 @click.option("--out", type=PATH, metavar="RUN", help="What happened, as .npz.")
@@ -37,6 +38,7 @@ def command(
     line_of_sight: bool,
     events: Path | None,
     delays: float | None,
+    plan: Path | None,
     resume: Path | None,
     max_steps: int,
     out: Path | None,
@@ -59,23 +61,34 @@ def command(
     if line_of_sight and sense is None:
         raise wrong_use("--line-of-sight is about what robots see: add --sense")
     happening = read_events(events) if events else ()
-    if resume is not None:
-        told = [name for name, value in {"AREA": area, "--sense": sense, "--planner": planner}.items() if value]
-        if told or delays is not None:
-            raise wrong_use(f"--resume RUN says all itself, so {', '.join(told) or '--delays'} cannot be told")
-        trial = _resumed(resume, happening)
-    elif area is None:
-        raise wrong_use("there is no AREA: name one, or add --resume RUN")
+    given = {
+        "AREA": area,
+        "--sense": sense,
+        "--planner": planner,
+        "--resume": resume and plan,
+        "--events": events and plan,
+    }
+    told = [name for name, value in given.items() if value is not None]
+    if told and (plan or resume):
+        raise wrong_use(f"--{'plan' if plan else 'resume'} says all itself, so {', '.join(told)} cannot be told")
+    trial, reference = None, "fcost"
+    if plan is not None:
+        run, reference = _followed(plan, delays or 0.0, options["seed"] or 0, max_steps)
     else:
-        trial = _begun(area, planner, sense, line_of_sight, happening, delays, options)
-    with bar("running", "robots") as progress:
-        run = trial.run(most_steps=max_steps, progress=progress)
+        if resume is not None:
+            trial = _resumed(resume, happening, delays)
+        elif area is not None:
+            trial = _begun(area, planner, sense, line_of_sight, happening, delays, options)
+        else:
+            raise wrong_use("there is no AREA: name one, or add --plan PLAN or --resume RUN")
+        with bar("running", "robots") as progress:
+            run = trial.run(most_steps=max_steps, progress=progress)
     if out is not None:
         with bar("writing", "bytes") as progress:
             write_run(run, out, progress=progress)
-    report = make_run_report(run, seconds=trial.seconds)
+    report = make_run_report(run, reference=reference, seconds=trial.seconds if trial else ())
     _draw(run, picture, animation)
-    return _told(report, summary, is_over=trial.is_over)
+    return _told(report, summary, is_over=trial.is_over if trial else run.steps < max_steps)
 
 
 def _check(out: Path | None, summary: Path | None, picture: Path | None, animation: Path | None) -> None:
@@ -111,10 +124,21 @@ def _begun(
     return Trial(scenario, planner, sensor=sensor, events=events, delay=delays or 0.0, seed=seed)
 
 
-def _resumed(path: Path, events: Any) -> Any:
+def _followed(path: Path, delay: float, seed: int, most_steps: int) -> tuple[Any, Any]:
+    """Return the run of robots that keep to the order of a plan, and the plan."""
+    from trihex.formats.plan_npz import read_plan_npz
+    from trihex.passing import make_passing_order
+
+    plan = read_plan_npz(path)
+    return make_passing_order(plan).run(delay=delay, seed=seed, most_steps=most_steps), plan
+
+
+def _resumed(path: Path, events: Any, delays: float | None) -> Any:
     from trihex.formats.run_npz import read_run
     from trihex.trial import resume_trial
 
+    if delays is not None:
+        raise wrong_use("--resume says all itself, so --delays cannot be told")
     run = read_run(path)
     late = [str(event) for event in events if event.step <= run.steps]
     if late:
