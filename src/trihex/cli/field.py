@@ -7,9 +7,11 @@ from typing import Any
 
 import click
 
-from trihex.cli.options import PATH, area_options, complete, read_described, rule_options
+from trihex.cli.options import PATH, area_options, complete, read_described, rule_options, wrong_use
 from trihex.cli.outputs import check_outputs
 from trihex.cli.progress import bar
+from trihex.cli.tiles import make_tiles
+from trihex.cli.types import Whole
 
 
 @click.command("field")
@@ -26,6 +28,9 @@ from trihex.cli.progress import bar
 @click.option("--picture", type=PATH, metavar="FILE", help="The N-scheme drawn, as .png or .svg.")
 @click.option("--directions-picture", type=PATH, metavar="FILE", help="The D-scheme drawn, as .png or .svg.")
 @click.option("--generations", type=PATH, metavar="DIR", help="A picture of every generation of the automaton.")
+@click.option("--tile", type=Whole(2), help="Areas in .npy or .zarr: cells along a tile, even. [default: 2048]")
+@click.option("--jobs", type=Whole(1), help="Areas in .npy or .zarr: processes that settle tiles. [default: 1]")
+@click.option("--scheduler", metavar="ADDRESS", help="Areas in .npy or .zarr: the Dask scheduler to settle tiles on.")
 def command(
     area: Path,
     out: Path | None,
@@ -33,13 +38,27 @@ def command(
     picture: Path | None,
     directions_picture: Path | None,
     generations: Path | None,
+    tile: int | None,
+    jobs: int | None,
+    scheduler: str | None,
     **options: Any,
 ) -> None:
     """Compute the N-scheme and the D-scheme.
 
     The N-scheme holds for each cell the least cost to a destination, 2147483647 where none can be reached. The D-scheme
     holds the directions that attain it: bit k is set where direction k of the tessellation is one of the best.
+
+    An area larger than memory is an array in .npy or .zarr, [y, x], not 0 at barriers. Its N-scheme is found tile by
+    tile, into --out alone (.npy or .zarr); interrupted at any moment, the same command goes on.
     """
+    if area.suffix.lower() in (".npy", ".zarr"):
+        pictures = (directions, picture, directions_picture, generations)
+        if any(pictures):
+            raise wrong_use(f"directions and pictures need an area in memory, not one in {area.suffix}")
+        make_tiles(area, out, tile, jobs, scheduler, options)
+        return
+    if given := [name for name, value in (("tile", tile), ("jobs", jobs), ("scheduler", scheduler)) if value]:
+        raise wrong_use(f"--{given[0]} is for areas in .npy or .zarr")
     import numpy as np
 
     from trihex.formats.field_npy import write_field
