@@ -6,6 +6,8 @@ it is further, it is nearer to that neighbour. Walking to that neighbour, from t
 cell of a point with about one test, knows how far the next edge is, and knows no shapes.
 """
 
+import math
+
 import numpy as np
 from numba import njit, types
 
@@ -20,7 +22,7 @@ STEPS = types.Array(types.int64, 3, "C", readonly=True)
 WAIT, JUMP = 255, 254
 
 
-@njit(inline="always")
+@njit(nogil=True)
 def _walk_to(px, py, step, unit, pitch, x, y, cx, cy):
     """Return (x, y) and centre of the cell in which the point lies, and how far the next edge is.
 
@@ -99,15 +101,20 @@ def paint_discs(x, y, radius, rgb, out):
     """Paint discs of one colour and radius (all in pixels) with soft edges onto `out` (height, width, 3)."""
     height, width = out.shape[0], out.shape[1]
     for disc in range(len(x)):
-        top, bottom = int(max(0.0, y[disc] - radius - 1)), int(min(height, y[disc] + radius + 2))
-        left, right = int(max(0.0, x[disc] - radius - 1)), int(min(width, x[disc] + radius + 2))
+        reach = radius + 0.5
+        top, bottom = max(0, np.int64(y[disc] - reach - 0.5)), min(height, np.int64(y[disc] + reach + 1.5))
+        left, right = max(0, np.int64(x[disc] - reach - 0.5)), min(width, np.int64(x[disc] + reach + 1.5))
         for i in range(top, bottom):
+            down = i + 0.5 - y[disc]
             for j in range(left, right):
-                away = np.sqrt((j + 0.5 - x[disc]) ** 2 + (i + 0.5 - y[disc]) ** 2)
-                cover = min(1.0, max(0.0, radius + 0.5 - away))
-                if cover > 0.0:
-                    for band in range(3):
-                        out[i, j, band] = np.uint8((1.0 - cover) * out[i, j, band] + cover * rgb[band] + 0.5)
+                across = j + 0.5 - x[disc]
+                cover = reach - math.sqrt(across * across + down * down)
+                if cover <= 0.0:
+                    continue
+                cover = min(1.0, cover)
+                out[i, j, 0] = np.uint8((1.0 - cover) * out[i, j, 0] + cover * rgb[0] + 0.5)
+                out[i, j, 1] = np.uint8((1.0 - cover) * out[i, j, 1] + cover * rgb[1] + 0.5)
+                out[i, j, 2] = np.uint8((1.0 - cover) * out[i, j, 2] + cover * rgb[2] + 0.5)
 
 
 @njit(types.void(types.Array(types.uint8, 3, "C", readonly=True), IN_U8, types.Array(types.uint8, 2, "C")),
