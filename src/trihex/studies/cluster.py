@@ -44,7 +44,7 @@ def connected(address: str, seconds: float = _SECONDS) -> Iterator[Cluster]:
         import distributed
     except ImportError:
         raise MissingExtraError("a Dask scheduler needs distributed: pip install 'trihex[scale]'") from None
-    for name in ("distributed", "distributed.comm", "tornado"):  # what they log is told by one error
+    for name in ("distributed", "distributed.client", "tornado"):  # what they log is told by one error
         logging.getLogger(name).setLevel(logging.CRITICAL)
     client = _connect(distributed, address, seconds)
     try:

@@ -238,7 +238,7 @@ def _collected(
         except StudyError:
             raise
         except (BrokenExecutor, CancelledError) as error:
-            reason = f": {error}" if str(error) else ""
+            reason = f": {' '.join(str(error).split())}" if str(error) else ""
             raise StudyError(f"the executor stopped ({type(error).__name__}{reason}); what is done is kept") from error
         except Exception as error:
             group.lives -= 1
