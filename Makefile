@@ -57,8 +57,9 @@ docs: $(VENV)/.docs
 	$(BIN)/python -m sphinx --fail-on-warning --keep-going -q -b html -d build/doctrees docs build/docs
 	@echo "build/docs/index.html"
 
-figures: $(VENV)/.docs
+figures: $(VENV)/.docs $(VENV)/.dev
 	$(BIN)/python -m examples
+	$(BIN)/python -m tests.viewer.picture
 
 clean:
 	rm -rf $(VENV) demo build dist .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache
