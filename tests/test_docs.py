@@ -207,6 +207,15 @@ def test_links_lead_somewhere(path):
             assert parts.fragment in slugs_of(there), f"{name_of(path)}: {target}"
 
 
+def test_every_dependency_has_its_reason():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    groups = [project["dependencies"], *project["optional-dependencies"].values()]
+    wanted = {re.match(r"[\w-]+", one)[0] for group in groups for one in group}
+    rows = [line for line in (ROOT / "CONTRIBUTING.md").read_text().splitlines() if line.startswith("| ")]
+    told = {name for row in rows for cell in row.split("|")[1:-2] for name in re.findall(r"[\w-]+", cell)}
+    assert wanted <= told, "tell in CONTRIBUTING.md what it is for"
+
+
 def test_every_page_is_in_the_navigation_and_every_public_name_in_the_reference():
     entries = re.findall(r"```\{toctree\}.*?```", (ROOT / "docs" / "index.md").read_text(), re.DOTALL)
     lines = [line.strip() for entry in entries for line in entry.splitlines() if not line.startswith((":", "```"))]
