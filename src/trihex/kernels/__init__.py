@@ -29,9 +29,9 @@ def load_numba_alone() -> None:
     """
     import sys
 
-    if "numba.np.linalg" in sys.modules:
+    if "numba.np.arraymath" in sys.modules:
         return
-    hidden = {name for name in ("scipy", "cffi") if name not in sys.modules}
+    hidden = {name for name in ("scipy.linalg", "cffi") if name not in sys.modules}
     sys.modules.update(dict.fromkeys(hidden))  # type: ignore[arg-type]  # None: an ImportError for whoever asks
     try:
         from numba.core.registry import cpu_target
