@@ -6,7 +6,7 @@ import pytest
 import trihex as th
 from tests.strategies import random_scenario
 from trihex.planners import make_plan
-from trihex.planners.fcost import _grow
+from trihex.planners.fcost import Slots
 
 
 def shortest_path(n_scheme, d_scheme, cell):
@@ -28,13 +28,14 @@ def test_the_paper_s_count_over_all_paths_is_a_look_up(seed):
     scenario = random_scenario(seed, sides=(3, 9))
     n_scheme = th.make_n_scheme(scenario)
     d_scheme = th.make_d_scheme(n_scheme)
-    branches = _grow(n_scheme)
     layout = scenario.area.layout
+    slot_table = Slots(n_scheme, is_literal=True)
     distance = n_scheme.distance_of_cell(scenario.robots)
     going = scenario.robots[(distance > 0) & (distance < 2**31 - 1)]
     path_of_robot = [shortest_path(n_scheme, d_scheme, int(cell))[:-1] for cell in going]
-    slots = branches.slot_of_site[layout.cell_to_site(going)]
-    count = np.bincount(slots, minlength=branches.first_slot[-1])
+    slot_table.find_regions(layout.cell_to_site(going))
+    slots = slot_table.find_slots(layout.cell_to_site(going))
+    count = np.bincount(slots, minlength=slot_table.first_slot[-1] + 1)
     reached = np.flatnonzero(n_scheme.distance.reshape(-1) < 2**31 - 1)
     for robot, own_slot in enumerate(slots):
         for target in reached[:: max(1, reached.size // 12)]:  # any cell may stand for the one a direction leads to
@@ -43,7 +44,7 @@ def test_the_paper_s_count_over_all_paths_is_a_look_up(seed):
             literal = sum(any(a == b for a, b in zip(path[1:], other[1:], strict=False)) for other in others)
             looked_up = 0
             if n_scheme.distance_of_cell([target])[0] > 0:
-                slot = branches.slot_of_site[layout.cell_to_site(np.array([target]))[0]] + 1
+                slot = slot_table.find_slots(layout.cell_to_site(np.array([target])))[0] + 1
                 looked_up = count[slot] - (slot == own_slot)
             assert looked_up == literal
 

@@ -56,6 +56,23 @@ def test_one_robot_takes_a_shortest_path(planner):
         assert plan.time_of_robot[0] == n_scheme.distance_of_cell([cell])[0]
 
 
+@pytest.mark.parametrize("planner", PLANNERS)
+@pytest.mark.parametrize("seed", range(6))
+def test_arrivals_are_those_of_the_plan(planner, seed):
+    scenario = random_scenario(75_000 + seed, sides=(3, 9))
+    plan, arrivals = make_plan(scenario, planner), make_plan(scenario, planner, record="arrivals")
+    assert arrivals == th.make_arrivals(plan)
+    assert np.array_equal(arrivals.arrived, plan.arrived)
+    assert np.array_equal(arrivals.time_of_robot[plan.arrived], plan.time_of_robot[plan.arrived])
+    assert (arrivals.steps, arrivals.total_time, arrivals.planner) == (plan.steps, plan.total_time, planner)
+
+
+def test_arrivals_are_as_many_as_robots():
+    scenario = th.Scenario(th.Area("square", [[0, 0]]), [(0, 0)], [(1, 0)])
+    with pytest.raises(th.PlanError, match="time_of_robot must have an entry for each of 1 robots"):
+        th.Arrivals(scenario, [1], [10, 20])
+
+
 def test_names_and_options_are_checked():
     scenario = th.Scenario(th.Area("square", [[0, 0]]), [(0, 0)], [(1, 0)])
     with pytest.raises(th.PlanError, match=r"planner must be one of .*, not 'gredy'; did you mean 'greedy'"):
@@ -64,6 +81,8 @@ def test_names_and_options_are_checked():
         make_plan(scenario, "fcost", rules="paper")
     with pytest.raises(th.PlanError, match="rule must be one of best, paper, queue, aside, not 'papers'"):
         make_plan(scenario, "fcost", rule="papers")
+    with pytest.raises(th.PlanError, match="record must be one of plan, arrivals, not 'times'"):
+        make_plan(scenario, record="times")
     with pytest.raises(th.PlanError, match="n_scheme must be that of the scenario"):
         make_plan(scenario, "greedy", n_scheme=th.make_n_scheme(scenario.with_robots([])))
     assert all(planner_named(name).__doc__ for name in PLANNERS)

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from trihex.area import Area as Area
+    from trihex.arrivals import Arrivals as Arrivals
+    from trihex.arrivals import make_arrivals as make_arrivals
     from trihex.audit import Audit as Audit
     from trihex.audit import Conflict as Conflict
     from trihex.audit import audit_plan as audit_plan
@@ -108,6 +110,7 @@ if TYPE_CHECKING:
 _MODULE_OF_NAME = {
     "Area": "area",
     "AreaError": "errors",
+    "Arrivals": "arrivals",
     "Audit": "audit",
     "AutomatonError": "errors",
     "CellularAutomaton": "automaton",
@@ -156,6 +159,7 @@ _MODULE_OF_NAME = {
     "draw_d_scheme": "plotting",
     "draw_n_scheme": "plotting",
     "draw_plan": "plotting",
+    "make_arrivals": "arrivals",
     "make_caves_area": "generators",
     "make_comparison": "comparison",
     "make_d_scheme": "schemes",

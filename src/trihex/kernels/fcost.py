@@ -1,87 +1,60 @@
 """Robots that weigh a longer way against waiting: the paper's Fcost = v + V + w_t * c, with c by look-up.
 
-Following the first of the best directions from every cell makes a forest; the cells whose ways enter a destination by
-the same last move form a *branch*. On a forest two robots meet on their shortest ways if and only if they are in one
-branch and equally many steps from its end. So each (branch, steps) is a *slot* with a number, slots of a branch in
-order of steps, and what the paper counts over n - 1 paths is one look-up in a table of robots by slot.
+Regions, blocks, rows and who is asked first are those of `trihex.kernels.greedy`, branches and slots those of
+`trihex.kernels.slots`.
 """
 
 import numpy as np
 from numba import njit, types
+from numba.cpython.unsafe.numbers import trailing_zeros
 
 from trihex.kernels.signatures import IN_I32, IN_I64, IN_U16, OUT_I32, OUT_I64, OUT_U8, TABLE_I32
+from trihex.kernels.slots import LEAD, count_meetings, find_slot, line_up
 
 # What c counts: robots that will be in my slot, or the line that they have formed in it by the time I am there.
 MEETINGS, QUEUE = 0, 1
 # When a blocked robot steps aside: never; to a place no farther than its own, if that is worth a wait; whenever there
 # is one that it has not just left.
 STAY, WORTH, ALWAYS = 0, 1, 2
-_DIGIT_BITS = 10
-_DIGITS = 1 << _DIGIT_BITS
+WAIT = 255
+# Lines are counted anew every so many steps, and a robot whose way is free looks for a better one as often: twice as
+# fast as in each step, and the plans are as good.
+_PERIOD = 4
+_FAR = 1 << 60
 
 
-@njit(types.void(IN_I32, IN_I32, IN_U16, TABLE_I32, OUT_I32, OUT_I32), cache=True, nogil=True)
-def grow_branches(order, distance, directions, offset, branch, steps):
-    """Fill the last site of each branch, and the steps to its end, for the sites in `order` of distance."""
-    for i in range(len(order)):
-        site = order[i]
-        k = 0
-        while not directions[site] >> k & 1:
-            k += 1
-        parent = site + offset[site & 1, k]
-        if distance[parent] == 0:
-            branch[site] = site
-            steps[site] = 1
-        else:
-            branch[site] = branch[parent]
-            steps[site] = steps[parent] + 1
+@njit(nogil=True)
+def _measure_lines(regions_branches, steps, count, line, first_slot, highest, lined_end):
+    """Find how far the lines of some branches may reach in the next `steps` steps, and clear what lies beyond."""
+    first_branch, last_branch = regions_branches
+    for branch in range(first_branch, last_branch):
+        end = first_slot[branch]
+        if highest[branch] > 0:
+            waiting = line_up(end, highest[branch] + 1, count, line)
+            end = min(first_slot[branch + 1], highest[branch] + 1 + max(waiting, steps))
+        for slot in range(end, lined_end[branch]):
+            line[slot] = 0
+        lined_end[branch] = end
 
 
-@njit(types.void(IN_I64, IN_I64, OUT_I64), cache=True, nogil=True)
-def line_up(first_slot, count, line):
-    """Fill how long the line is that a robot finds in its slot: one leaves in each step, those of the slot join."""
-    for branch in range(len(first_slot) - 1):
-        waiting = 0
-        for slot in range(first_slot[branch], first_slot[branch + 1]):
-            waiting = max(0, waiting - 1) + count[slot]
-            line[slot] = waiting
-
-
-@njit(types.void(IN_I32, IN_I32, types.int64, OUT_I32, OUT_I32), cache=True, nogil=True)
-def sort_by_distance(distance, site, active, listed, spare):
-    """Sort the first `active` robots of `listed` by the distance of their sites, keeping the order of ties.
-
-    By digits, as many as are in use: a third of the time of a merge sort, and an eighth of its time to compile.
-    """
-    least = 2**31 - 1
-    most = 0
-    for i in range(active):
-        least = min(least, distance[site[listed[i]]])
-        most = max(most, distance[site[listed[i]]])
-    count = np.empty(_DIGITS, dtype=np.int64)
-    shift = 0
-    while (most - least) >> shift > 0:
-        count[:] = 0
-        for i in range(active):
-            count[((distance[site[listed[i]]] - least) >> shift) % _DIGITS] += 1
-        before = 0
-        for digit in range(_DIGITS):
-            before += count[digit]
-            count[digit] = before - count[digit]
-        for i in range(active):
-            digit = ((distance[site[listed[i]]] - least) >> shift) % _DIGITS
-            spare[count[digit]] = listed[i]
-            count[digit] += 1
-        for i in range(active):
-            listed[i] = spare[i]
-        shift += _DIGIT_BITS
+@njit(nogil=True)
+def _find_captain(captain, site_of_robot, robot_at, best, offset):
+    """Return who is at the head of the way of `captain`: the cell to which its first best direction leads is free."""
+    while True:
+        site = site_of_robot[captain]
+        ahead = robot_at[site + offset[site & 1, trailing_zeros(best[site])]]
+        if ahead == 0:
+            return captain
+        captain = ahead
 
 
 @njit(
-    types.UniTuple(types.int64, 3)(
-        *[IN_I64, IN_I32, IN_I32, IN_I32, IN_U16, IN_U16, TABLE_I32, TABLE_I32, IN_I32, IN_I64],
-        *[types.int64, types.int64, types.int64],
-        *[OUT_I32, OUT_I32, OUT_I32, OUT_I32, OUT_U8, OUT_I64, OUT_I64, OUT_I32, OUT_I32, OUT_I32, OUT_I32],
+    types.void(
+        *[IN_I64, TABLE_I32, TABLE_I32, IN_I32, types.int64, types.int64, types.int64],
+        *[IN_I32, IN_U16, IN_U16, OUT_I32, OUT_I64, OUT_I32, OUT_I32],
+        *[IN_I32, IN_I64, IN_I32, OUT_I32, OUT_I32, OUT_I32, OUT_I64, OUT_I64],
+        *[IN_I64, IN_I64, IN_I64, IN_I64, OUT_I64, OUT_I32, OUT_I32],
+        *[OUT_I32, OUT_I32, OUT_I32, OUT_I32],
         *[OUT_I32, OUT_U8, OUT_I64, OUT_I64],
     ),
     cache=True,
@@ -89,120 +62,212 @@ def sort_by_distance(distance, site, active, listed, spare):
 )
 def weigh(
     rules,
-    distance,
-    slot_of_site,
-    branch_of_site,
-    directions,
-    moves,
     offset,
     vertex,
     cost,
-    first_slot,
-    step,
-    active,
-    budget,
-    listed,
-    spare,
-    site,
-    came_from,
-    occupied,
-    count,
-    line,
+    block,
+    first_step,
+    steps,
+    distance,
+    best_moves,
+    moves,
+    robot_at,
     passed,
     entered_step,
     entered_count,
-    led_step,
-    log_robot,
-    log_action,
-    log_end,
+    branch_of_end,
+    first_slot,
+    branch_of_slot,
+    slot,
+    count,
+    line,
+    highest,
+    lined_end,
+    first_branch_of_region,
+    first_end_of_region,
+    regions,
+    first_of_region,
+    count_of_region,
+    captain_of_region,
+    listed,
+    site_of_robot,
+    row_of_robot,
+    asked,
+    came_from,
+    robot_of_row,
+    action_of_row,
     arrival,
+    lost,
 ):
-    """Let robots act until `budget` robot-steps are done or the log is full; return step, active robots, steps done.
+    """Let the robots of `regions` act for `steps` steps after `first_step`; fill a row of actions for each.
 
-    `rules` are: what c counts, when to step aside, w_t, what a collision costs, the first vertex move that may not be
-    crossed, the capacity of a destination (0: any). The first robot of each branch descends, if it can; the nearest of
-    all always can, so every robot arrives. Any other takes the free direction of least Fcost, unless waiting for the
-    best direction promises less.
+    `rules` are: what c counts, when to step aside, w_t, the first vertex move that may not be crossed, the capacity of
+    a destination (0: any). Each robot takes the free direction of least Fcost, unless waiting for the best direction
+    promises less. In each region one robot, the captain, or who stands at the head of its way, is asked first and
+    descends; so a captain arrives in bounded time, and then there is another. `lost` counts what all robots lose: the
+    cost of waits, and of moves beyond what they come nearer.
     """
-    counts, aside, waiting_cost, collision_cost, first_vertex_move, capacity = rules
-    done = 0
-    logged = 0
-    while active > 0 and budget > 0 and done < len(log_end) and logged + active <= len(log_robot):
-        step += 1
-        budget -= active
+    counts, aside, waiting_cost, first_vertex_move, capacity = rules
+    filled = 0
+    loss = 0
+    waiting_for_other = np.empty(len(listed), np.int32)
+    for i in range(len(regions)):
+        region = regions[i]
+        first = first_of_region[region]
+        first_branch, last_branch = first_branch_of_region[region], first_branch_of_region[region + 1]
+        low, high = first_slot[first_branch], first_slot[last_branch]
+        low_end, high_end = -first_end_of_region[region + 1], -1 - first_end_of_region[region]
+        for branch in range(first_branch, last_branch):
+            highest[branch] = 0
+        for j in range(first, first + count_of_region[region]):
+            robot = listed[j]
+            row_of_robot[robot] = filled
+            robot_of_row[filled] = robot
+            filled += 1
+            own_slot = slot[site_of_robot[robot]]
+            branch = branch_of_slot[own_slot]
+            highest[branch] = max(highest[branch], own_slot)
         if counts == QUEUE:
-            line_up(first_slot, count, line)
-        else:
-            for slot in range(len(count)):
-                line[slot] = count[slot]
-        sort_by_distance(distance, site, active, listed, spare)
-        kept = 0
-        for i in range(active):
-            robot = listed[i]
-            here = site[robot]
-            parity = here & 1
-            own_slot = slot_of_site[here]
-            is_first = led_step[branch_of_site[here]] != step
-            led_step[branch_of_site[here]] = step
-            best = 1 << 60
-            least = 1 << 60  # Fcost of the best free direction, and of the cell it leads to the distance
-            nearest = 1 << 60
-            taken = -1
-            descent = -1
-            for k in range(offset.shape[1]):
-                if not moves[here] >> k & 1:
-                    continue
-                target = here + offset[parity, k]
-                collisions = 0
-                if distance[target] > 0:
-                    slot = slot_of_site[target] + 1
-                    collisions = line[slot] - (slot == own_slot)
-                fcost = cost[k] + distance[target] + collision_cost * collisions
-                best = min(best, fcost)
-                if occupied[target]:
-                    continue
-                if k >= first_vertex_move and passed[here + vertex[parity, k]] == step:
-                    continue
-                if capacity > 0 and entered_step[target] == step and entered_count[target] >= capacity:
-                    continue
-                if descent < 0 and directions[here] >> k & 1:
-                    descent = k
-                if fcost < least or (fcost == least and distance[target] < nearest):
-                    least = fcost
-                    nearest = distance[target]
-                    taken = k
-            if is_first and descent >= 0:
-                taken = descent
-            elif taken >= 0 and least != best and least >= best + waiting_cost:
-                steps_aside = aside != STAY and nearest <= distance[here]
-                if aside == WORTH and least > best + waiting_cost:
-                    steps_aside = False
-                if aside == ALWAYS and nearest == distance[here] and here + offset[parity, taken] == came_from[robot]:
-                    steps_aside = False
-                if not steps_aside:
-                    taken = -1
-            if taken >= 0:
-                target = here + offset[parity, taken]
-                log_robot[logged] = robot
-                log_action[logged] = taken
-                logged += 1
-                occupied[here] = 0
-                came_from[robot] = here
-                site[robot] = target
-                count[own_slot] -= 1
-                if taken >= first_vertex_move:
-                    passed[here + vertex[parity, taken]] = step
-                if distance[target] == 0:
-                    arrival[robot] = step
-                    if capacity > 0:
-                        entered_count[target] = 1 + entered_count[target] * (entered_step[target] == step)
-                        entered_step[target] = step
-                    continue
-                occupied[target] = 1
-                count[slot_of_site[target]] += 1
-            listed[kept] = robot
-            kept += 1
-        active = kept
-        log_end[done] = logged
-        done += 1
-    return step, active, done
+            _measure_lines((first_branch, last_branch), steps, count, line, first_slot, highest, lined_end)
+        for s in range(steps):
+            if count_of_region[region] == 0:
+                break
+            step = first_step + s + 1
+            for branch in range(first_branch, last_branch):
+                if counts == MEETINGS:
+                    count_meetings(first_slot[branch], first_slot[branch + 1], count, line)
+                elif s % _PERIOD == 0:
+                    line_up(first_slot[branch], lined_end[branch], count, line)
+            captain = captain_of_region[region]
+            if captain == 0 or site_of_robot[captain] == 0:
+                captain = listed[first]
+            captain = _find_captain(captain, site_of_robot, robot_at, best_moves, offset)
+            captain_of_region[region] = captain
+            kept = first
+            for j in range(first - 1, first + count_of_region[region]):
+                own = listed[j] if j >= first else captain
+                robot = own
+                depth = 0
+                while asked[own] != step:
+                    site = site_of_robot[robot]
+                    parity = site & 1
+                    own_distance = distance[site]
+                    own_slot = slot[site]
+                    descends = robot == captain or (counts == MEETINGS and line[own_slot] & LEAD != 0)
+                    best = _FAR  # Fcost of the best direction, and of the best that is free
+                    least = _FAR
+                    taken = WAIT
+                    to = site
+                    via = 0
+                    other = np.int32(0)
+                    untried = best_moves[site]
+                    while untried:
+                        k = np.int64(trailing_zeros(untried))
+                        untried &= untried - np.uint16(1)
+                        target = site + offset[parity, k]
+                        its_slot = slot[target]
+                        if its_slot == 0:
+                            its_slot = find_slot(
+                                target, best_moves, offset, branch_of_end, first_slot, branch_of_slot, slot
+                            )
+                        fcost = np.int64(own_distance)
+                        if its_slot > 0:
+                            if its_slot < low or its_slot >= high:
+                                continue
+                            collisions = (line[its_slot + 1] & (LEAD - 1)) - (its_slot + 1 == own_slot)
+                            fcost += waiting_cost * collisions
+                        elif its_slot < low_end or its_slot > high_end:
+                            continue
+                        best = min(best, fcost)
+                        other = robot_at[target]
+                        if other:
+                            if other > own and asked[other] != step:  # those listed before have been asked
+                                break
+                            other = np.int32(0)
+                            continue
+                        at = (site + vertex[parity, k]) * (k >= first_vertex_move)
+                        if passed[at] >> 32 == block and passed[at] >> s & 1:
+                            continue
+                        if capacity > 0 and entered_step[target] == step and entered_count[target] >= capacity:
+                            continue
+                        if fcost < least:
+                            least = fcost
+                            taken = k
+                            to = target
+                            via = at
+                            if descends:
+                                break
+                    if other and j >= first:
+                        waiting_for_other[depth] = robot
+                        depth += 1
+                        robot = other
+                        continue
+                    if descends and taken != WAIT:
+                        line[own_slot] &= LEAD - 1
+                    elif least > own_distance and (
+                        counts == MEETINGS or taken == WAIT or (step + robot) % _PERIOD == 0
+                    ):
+                        untried = moves[site] & ~best_moves[site]
+                        while untried:
+                            k = np.int64(trailing_zeros(untried))
+                            untried &= untried - np.uint16(1)
+                            target = site + offset[parity, k]
+                            fcost = np.int64(cost[k]) + distance[target]
+                            if fcost >= least:
+                                continue
+                            its_slot = slot[target]
+                            if its_slot == 0:
+                                its_slot = find_slot(
+                                    target, best_moves, offset, branch_of_end, first_slot, branch_of_slot, slot
+                                )
+                            if its_slot < low or its_slot >= high:
+                                continue
+                            collisions = (line[its_slot + 1] & (LEAD - 1)) - (its_slot + 1 == own_slot)
+                            fcost += waiting_cost * collisions
+                            best = min(best, fcost)
+                            if fcost >= least or robot_at[target]:
+                                continue
+                            at = (site + vertex[parity, k]) * (k >= first_vertex_move)
+                            if passed[at] >> 32 == block and passed[at] >> s & 1:
+                                continue
+                            least = fcost
+                            taken = k
+                            to = target
+                            via = at
+                        if taken != WAIT and least != best and least >= best + waiting_cost:
+                            stays = aside == STAY or distance[to] > own_distance
+                            stays |= aside == WORTH and least > best + waiting_cost
+                            stays |= aside == ALWAYS and distance[to] == own_distance and to == came_from[robot]
+                            if stays:
+                                taken = WAIT
+                                to = site
+                                via = 0
+                    asked[robot] = step
+                    action_of_row[row_of_robot[robot] * steps + s] = taken
+                    if taken == WAIT:
+                        loss += waiting_cost
+                    else:
+                        loss += cost[taken] + distance[to] - own_distance
+                        before = passed[via] if passed[via] >> 32 == block else block << 32
+                        passed[via] = before | 1 << s if via else 0
+                        came_from[robot] = site
+                        robot_at[site] = 0
+                        count[own_slot] -= 1
+                        if slot[to] < 0:
+                            arrival[robot] = step
+                            site_of_robot[robot] = 0
+                            if capacity > 0:
+                                entered_count[to] = 1 + entered_count[to] * (entered_step[to] == step)
+                                entered_step[to] = step
+                        else:
+                            robot_at[to] = robot
+                            site_of_robot[robot] = to
+                            count[slot[to]] += 1
+                    if depth > 0:
+                        depth -= 1
+                        robot = waiting_for_other[depth]
+                if j >= first:
+                    listed[kept] = own
+                    kept += site_of_robot[own] > 0
+            count_of_region[region] = kept - first
+    lost[0] += loss

@@ -1,7 +1,8 @@
 """Planners: who plans, by name.
 
 Every planner is a function ``plan_<name>(n_scheme, *, progress=None, **options) -> Plan`` in a file of its own, which
-is imported when it is first asked for. The command line, the tests, the docs and the benchmarks read this registry.
+is imported when it is first asked for; it may have a sister ``arrivals_<name>`` that returns `Arrivals`. The command
+line, the tests, the docs and the benchmarks read this registry.
 """
 
 from __future__ import annotations
@@ -9,8 +10,9 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable
 from importlib import import_module
-from typing import Any
+from typing import Any, Literal, overload
 
+from trihex.arrivals import Arrivals, make_arrivals
 from trihex.errors import PlanError, check_choice
 from trihex.plan import Plan
 from trihex.scenario import Scenario
@@ -18,6 +20,8 @@ from trihex.schemes import NScheme, make_n_scheme
 
 Progress = Callable[[int, int], None]
 Planner = Callable[..., Plan]
+
+RECORDS = ("plan", "arrivals")
 
 # Name: the module under trihex.planners that defines plan_<name>.
 PLANNERS: dict[str, str] = {"greedy": "greedy", "fcost": "fcost"}
@@ -48,14 +52,35 @@ def options_of(name: str) -> dict[str, Any]:
     return {p.name: p.default for p in parameters if p.kind is p.KEYWORD_ONLY and p.name != "progress"}
 
 
+@overload
+def make_plan(
+    scenario: Scenario,
+    planner: str = ...,
+    *,
+    n_scheme: NScheme | None = ...,
+    progress: Progress | None = ...,
+    record: Literal["plan"] = ...,
+    **options: Any,
+) -> Plan: ...
+@overload
+def make_plan(
+    scenario: Scenario,
+    planner: str = ...,
+    *,
+    n_scheme: NScheme | None = ...,
+    progress: Progress | None = ...,
+    record: Literal["arrivals"],
+    **options: Any,
+) -> Arrivals: ...
 def make_plan(
     scenario: Scenario,
     planner: str = "fcost",
     *,
     n_scheme: NScheme | None = None,
     progress: Progress | None = None,
+    record: str = "plan",
     **options: Any,
-) -> Plan:
+) -> Plan | Arrivals:
     """Plan collision-free paths for all robots of `scenario`.
 
     Parameters
@@ -67,13 +92,16 @@ def make_plan(
         The N-scheme of `scenario`, if it is at hand.
     progress : callable, optional
         Called with (robots arrived, robots that can arrive) a few times a second.
+    record : {"plan", "arrivals"}
+        Whether to return the plan, or only when each robot arrives and what that takes: 16 bytes a robot, and with
+        `greedy` and `fcost` no action is ever kept.
     **options
         Options of the planner, see `options_of`.
 
     Raises
     ------
     PlanError
-        If there is no such planner, it has no such option, or `n_scheme` belongs to another scenario.
+        If there is no such planner, record or option of the planner, or `n_scheme` belongs to another scenario.
 
     Examples
     --------
@@ -83,6 +111,7 @@ def make_plan(
     array([30, 20])
     """
     plan = planner_named(planner)
+    check_choice("record", record, RECORDS, PlanError)
     known = options_of(planner)
     for option in options:
         if option not in known:
@@ -91,4 +120,10 @@ def make_plan(
         n_scheme = make_n_scheme(scenario)
     elif n_scheme.scenario is not scenario and n_scheme.scenario != scenario:
         raise PlanError("n_scheme must be that of the scenario")
-    return plan(n_scheme, progress=progress, **options)
+    if record == "plan":
+        return plan(n_scheme, progress=progress, **options)
+    arrivals = getattr(import_module(plan.__module__), f"arrivals_{planner}", None)
+    if arrivals is None:
+        return make_arrivals(plan(n_scheme, progress=progress, **options))
+    made: Arrivals = arrivals(n_scheme, progress=progress, **options)
+    return made

@@ -2,129 +2,176 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import replace
-from typing import NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from trihex.arrivals import Arrivals
 from trihex.errors import PlanError, check_choice
 from trihex.plan import Plan
-from trihex.planners.greedy import plan_greedy
-from trihex.planners.recording import BUDGET, Recording
-from trihex.schemes import NOT_REACHED, NScheme, make_d_scheme
+from trihex.planners.crowd import make_crowd, regions_of
+from trihex.planners.greedy import run_greedy
+from trihex.planners.recording import Progress, Recording
+from trihex.schemes import NScheme, make_d_scheme
 
 RULES = ("best", "paper", "queue", "aside")
-Progress = Callable[[int, int], None]
-
-
-class Branches(NamedTuple):
-    """The forest of shortest ways: each cell's branch and its slot, which numbers (branch, steps to its end)."""
-
-    directions: NDArray[np.uint16]
-    branch_of_site: NDArray[np.int32]
-    slot_of_site: NDArray[np.int32]
-    first_slot: NDArray[np.int64]
+# Robot-steps up to which "best" tries "queue" as well: beyond, it wins too rarely to be worth half a second.
+_FEW = 2_000_000
+# Slots beyond the robot of a branch that is farthest at first, for those that detours bring there.
+_SPARE = 40
 
 
 def plan_fcost(n_scheme: NScheme, *, rule: str = "best", progress: Progress | None = None) -> Plan:
     """Plan by the least Fcost = v + V + w_t * c (section IV of the paper), step by step.
 
-    In each step the robots are asked in order of their distance. The nearest of each branch of the D-scheme descends;
-    any other takes the free direction of least Fcost, and waits where the best direction, though taken, promises less.
+    In each step each robot takes the free direction of least Fcost, and waits where the best direction, though taken,
+    promises less. Who is asked first, and regions, are as in `plan_greedy`; under "paper" there are no regions.
 
     Parameters
     ----------
     n_scheme : NScheme
     rule : {"best", "paper", "queue", "aside"}
         What c is. "paper": the number of other robots whose shortest path meets the path that starts with a direction
-        (same cell, same step). "queue": the length of the line that they have formed when the robot gets there, and a
-        robot that would wait may step to a cell no farther away if that costs no more. "aside": the same, and a
-        blocked robot always steps to such a cell unless it has just left it. "best": plans by the latter two and by
-        greedy descent, and keeps the plan of the least total time.
+        (same cell, same step); the first robot of each branch of the D-scheme descends. "queue": the length of the line
+        that they have formed when the robot gets there, and a robot that would wait may step to a cell no farther away
+        if that costs no more. "aside": the same, and a blocked robot always steps to such a cell unless it has just
+        left it. "best": "aside" or greedy descent, whichever takes less total time, and up to two million robot-steps
+        "queue", too.
     progress : callable, optional
         Called with (robots arrived, robots that can arrive), of one rule after the other.
     """
+    return _run(n_scheme, rule, True, progress).make_plan("fcost")
+
+
+def arrivals_fcost(n_scheme: NScheme, *, rule: str = "best", progress: Progress | None = None) -> Arrivals:
+    """Return the arrivals of what `plan_fcost` plans."""
+    return _run(n_scheme, rule, False, progress).make_arrivals("fcost")
+
+
+class Slots:
+    """Branches and slots of a scenario, see `trihex.kernels.slots`.
+
+    Parameters
+    ----------
+    n_scheme : NScheme
+    is_literal : bool
+        One region, and slots for all branches. Otherwise only those branches have slots of their own in which robots
+        start; all others of a region share some.
+    """
+
+    def __init__(self, n_scheme: NScheme, is_literal: bool) -> None:
+        scenario = n_scheme.scenario
+        self.n_scheme, self.is_literal = n_scheme, is_literal
+        self.layout, self.tessellation = scenario.area.layout, scenario.area.tessellation
+        self.directions = make_d_scheme(n_scheme).directions_of_site
+        region = regions_of(scenario, at_once=is_literal)
+        order = np.argsort(region, kind="stable")
+        self.destinations = self.layout.cell_to_site(scenario.destinations[order])
+        #: Destinations by region: those of region r have the numbers from first_end[r] to first_end[r + 1].
+        self.first_end = np.append(0, np.cumsum(np.bincount(region))).astype(np.int64)
+        self.slot_of_site = np.zeros(self.layout.size, dtype=np.int32)
+        self.slot_of_site[self.destinations] = -1 - np.arange(order.size)
+
+    def find_regions(self, starts: NDArray[np.int32]) -> NDArray[np.int64]:
+        """Lay slots for robots that start at these sites, and return their regions."""
+        from trihex.kernels import slots as kernels
+
+        offset, many = self.layout.offset_of_direction, self.tessellation.direction_count
+        number = np.full(self.layout.size, -1, dtype=np.int32)
+        number[self.destinations] = np.arange(self.destinations.size)
+        branch = np.empty(starts.size, dtype=np.int32)
+        kernels.find_branches(starts, self.directions, offset, number, np.zeros_like(number), branch)
+        own = np.arange(self.destinations.size * many) if self.is_literal else np.unique(branch)
+        region_of_end = np.repeat(np.arange(self.first_end.size - 1), np.diff(self.first_end))
+        first = np.append(0, np.cumsum(np.bincount(region_of_end[own // many], minlength=self.first_end.size - 1)))
+        #: Branches by region, the last of each region for all that have no slots of their own.
+        self.first_branch = (first + np.arange(first.size)).astype(np.int64)
+        self.branch_of_end = np.repeat(self.first_branch[1:] - 1, np.diff(self.first_end) * many).astype(np.int32)
+        self.branch_of_end[own] = np.arange(own.size) + region_of_end[own // many]
+        depth = np.full(self.first_branch[-1], _SPARE, dtype=np.int64)
+        steps = self.n_scheme.distance_of_site[starts] // int(self.tessellation.cost_of_direction.min())
+        np.maximum.at(depth, self.branch_of_end[branch], steps + _SPARE)
+        if self.is_literal:
+            depth[:] = depth.max()
+        self.first_slot = np.append(1, 1 + np.cumsum(depth))
+        self.branch_of_slot = np.append(-1, np.repeat(np.arange(depth.size), depth)).astype(np.int32)
+        self.find_slots(starts)
+        return np.asarray(region_of_end[branch // many], dtype=np.int64)
+
+    def find_slots(self, sites: NDArray[np.int32]) -> NDArray[np.int32]:
+        """Return the slots of some sites, after `find_regions`."""
+        from trihex.kernels import slots as kernels
+
+        kernels.find_slots(sites, *self.forest)
+        return self.slot_of_site[sites]
+
+    @property
+    def forest(self) -> tuple[NDArray[Any], ...]:
+        """What kernels need to find a slot."""
+        offset = self.layout.offset_of_direction
+        return self.directions, offset, self.branch_of_end, self.first_slot, self.branch_of_slot, self.slot_of_site
+
+
+def _run(n_scheme: NScheme, rule: str, keeps_actions: bool, progress: Progress | None) -> Recording:
+    """Return the recording of a rule, or of the best of some.
+
+    What can no longer become the best is given up: greedy descent shows early how much waiting it costs.
+    """
     check_choice("rule", rule, RULES, PlanError)
-    branches = _grow(n_scheme)
     if rule != "best":
-        return _planned(n_scheme, rule, branches, progress)
-    plans = [_planned(n_scheme, one, branches, progress) for one in ("aside", "queue")]
-    best = min([*plans, plan_greedy(n_scheme, progress=progress)], key=lambda plan: plan.total_time)
-    return replace(best, planner="fcost")
+        return _simulated(n_scheme, rule, keeps_actions, progress)
+    best = _simulated(n_scheme, "aside", keeps_actions, progress)
+    steps = best.crowd.arrival.sum()
+    other = run_greedy(n_scheme, keeps_actions, progress, best.total_time)
+    best = min(best, other, key=lambda one: (not one.is_over, one.total_time))
+    if steps <= _FEW:
+        other = _simulated(n_scheme, "queue", keeps_actions, progress, best.total_time)
+        best = min(best, other, key=lambda one: (not one.is_over, one.total_time))
+    return best
 
 
-def _grow(n_scheme: NScheme) -> Branches:
-    from trihex.kernels import fcost as kernels
-
-    layout = n_scheme.scenario.area.layout
-    distance = n_scheme.distance_of_site
-    cells = np.flatnonzero((distance != NOT_REACHED) & (distance != 0)).astype(np.int32)
-    branch, steps = np.zeros(layout.size, dtype=np.int32), np.zeros(layout.size, dtype=np.int32)
-    order = cells[np.argsort(distance[cells], kind="stable")]
-    directions = make_d_scheme(n_scheme).directions_of_site
-    kernels.grow_branches(order, distance, directions, layout.offset_of_direction, branch, steps)
-    last_sites, branch[cells] = np.unique(branch[cells], return_inverse=True)
-    depth = np.zeros(last_sites.size, dtype=np.int64)
-    np.maximum.at(depth, branch[cells], steps[cells])
-    # One slot more than steps at both ends: nobody stands at 0, and a detour may come from beyond the last.
-    first_slot = np.concatenate([[0], np.cumsum(depth + 2)])
-    steps[cells] += first_slot[branch[cells]].astype(np.int32)
-    return Branches(directions, branch, steps, first_slot)
-
-
-def _planned(n_scheme: NScheme, rule: str, branches: Branches, progress: Progress | None) -> Plan:
+def _simulated(
+    n_scheme: NScheme, rule: str, keeps_actions: bool, progress: Progress | None, limit: float = float("inf")
+) -> Recording:
+    """Simulate until all have arrived, or the total time is sure to be `limit` or more."""
     from trihex.kernels import fcost as kernels
 
     scenario = n_scheme.scenario
     layout, tessellation = scenario.area.layout, scenario.area.tessellation
-    site = layout.cell_to_site(scenario.robots)
-    distance = n_scheme.distance_of_site
-    going = np.flatnonzero((distance[site] != NOT_REACHED) & (distance[site] != 0)).astype(np.int32)
-    forbids, capacity = scenario.crossing == "forbid", scenario.destination_capacity or 0
+    slots = Slots(n_scheme, is_literal=rule == "paper")
+    crowd = make_crowd(n_scheme, slots.find_regions)
+    recording = Recording(crowd, keeps_actions)
     aside = {"paper": kernels.STAY, "queue": kernels.WORTH, "aside": kernels.ALWAYS}[rule]
     counts = kernels.MEETINGS if rule == "paper" else kernels.QUEUE
-    first_vertex_move = tessellation.edge_count if forbids else tessellation.direction_count
-    rules = [counts, aside, scenario.waiting_cost, scenario.waiting_cost, first_vertex_move, capacity]
-    occupied = np.zeros(layout.size, dtype=np.uint8)
-    occupied[site[going]] = True
-    count = np.bincount(branches.slot_of_site[site[going]], minlength=branches.first_slot[-1])
-    recording = Recording(scenario, going.size)
-    state = (
-        going.copy(),
-        np.empty(going.size, dtype=np.int32),
-        site,
-        np.full(site.size, -1, dtype=np.int32),
-        occupied,
-        count,
-        np.zeros(count.size, dtype=np.int64),
-        np.zeros(layout.size, dtype=np.int32),
-        np.zeros(layout.size, dtype=np.int32),
-        np.zeros(layout.size, dtype=np.int32),
-        np.zeros(max(branches.first_slot.size - 1, 1), dtype=np.int32),
+    rules = np.array([counts, aside, scenario.waiting_cost, *crowd.rules], dtype=np.int64)
+    many = slots.first_slot[-1] + 1
+    count = np.bincount(slots.slot_of_site[crowd.site_of_robot[1:]], minlength=many).astype(np.int32)
+    tables = (
+        *(slots.branch_of_end, slots.first_slot, slots.branch_of_slot, slots.slot_of_site),
+        *(count, np.zeros(many, np.int32), np.zeros(slots.first_slot.size, np.int64), slots.first_slot.copy()),
+        *(slots.first_branch, slots.first_end),
     )
-    step, active = 0, going.size
-    while active:
-        step, active, steps = kernels.weigh(
-            np.array(rules, dtype=np.int64),
-            distance,
-            branches.slot_of_site,
-            branches.branch_of_site,
-            branches.directions,
-            scenario.moves,
-            layout.offset_of_direction,
-            layout.vertex_of_direction,
-            tessellation.cost_of_direction,
-            branches.first_slot,
-            step,
-            active,
-            BUDGET,
-            *state,
-            *recording.new_log(),
-            recording.arrival,
+    captain_of_region, came_from = np.zeros(slots.first_end.size, np.int32), np.zeros(crowd.robot.size, np.int32)
+
+    def simulate(
+        block: int,
+        first_step: int,
+        steps: int,
+        regions: NDArray[np.int64],
+        robot_of_row: NDArray[np.int32],
+        action_of_row: NDArray[np.uint8],
+    ) -> None:
+        kernels.weigh(
+            *(rules, layout.offset_of_direction, layout.vertex_of_direction, tessellation.cost_of_direction),
+            *(block, first_step, steps),
+            *(n_scheme.distance_of_site, slots.directions, scenario.moves),
+            *(crowd.robot_at, crowd.passed, *crowd.entered),
+            *tables,
+            *(regions, crowd.first_of_region, crowd.count_of_region, captain_of_region),
+            *(crowd.listed, crowd.site_of_robot, crowd.row_of_robot, crowd.asked, came_from),
+            *(robot_of_row, action_of_row, crowd.arrival, recording.lost),
         )
-        recording.keep(steps)
-        if progress:
-            progress(going.size - active, going.size)
-    return recording.make_plan("fcost")
+
+    recording.run(simulate, progress, limit)
+    return recording

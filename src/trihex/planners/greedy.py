@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
+from numpy.typing import NDArray
 
+from trihex.arrivals import Arrivals
 from trihex.plan import Plan
-from trihex.planners.recording import BUDGET, Recording
-from trihex.schemes import NOT_REACHED, NScheme, make_d_scheme
+from trihex.planners.crowd import make_crowd, regions_of
+from trihex.planners.recording import Progress, Recording
+from trihex.schemes import NScheme, make_d_scheme
 
 
-def plan_greedy(n_scheme: NScheme, *, progress: Callable[[int, int], None] | None = None) -> Plan:
+def plan_greedy(n_scheme: NScheme, *, progress: Progress | None = None) -> Plan:
     """Plan by greedy descent of the distance, a baseline of the paper (section 5).
 
-    In each step the robots are asked in order of their distance. Each takes the first of its tied best directions that
-    is free, and waits if there is none. It never steps aside, so it is blind to congestion; yet in every step some
-    robot comes nearer, so every robot that can arrive does.
+    In each step each robot takes the first of its tied best directions that is free, and waits if there is none; a
+    robot that stands in another's way is asked before it, otherwise those are first that started nearest. Nobody ever
+    steps aside, so it is blind to congestion; yet in every step some robot comes nearer, so every robot that can arrive
+    does. Destinations less than 64 columns and rows apart count as one region, and robots keep to their region.
 
     Parameters
     ----------
@@ -24,48 +26,51 @@ def plan_greedy(n_scheme: NScheme, *, progress: Callable[[int, int], None] | Non
     progress : callable, optional
         Called with (robots arrived, robots that can arrive).
     """
-    from trihex.kernels import planning as kernels
+    return run_greedy(n_scheme, True, progress).make_plan("greedy")
+
+
+def arrivals_greedy(n_scheme: NScheme, *, progress: Progress | None = None) -> Arrivals:
+    """Return the arrivals of what `plan_greedy` plans."""
+    return run_greedy(n_scheme, False, progress).make_arrivals("greedy")
+
+
+def run_greedy(
+    n_scheme: NScheme, keeps_actions: bool, progress: Progress | None = None, limit: float = float("inf")
+) -> Recording:
+    """Simulate until all have arrived, or the total time is sure to be `limit` or more."""
+    from trihex.kernels import greedy as kernels
 
     scenario = n_scheme.scenario
-    area = scenario.area
-    layout, tessellation = area.layout, area.tessellation
-    sites = layout.cell_to_site(scenario.robots)
-    distance = n_scheme.distance_of_site[sites]
-    going = np.flatnonzero((distance != NOT_REACHED) & (distance != 0))
-    going = going[np.argsort(distance[going], kind="stable")]
+    layout = scenario.area.layout
+    destinations = layout.cell_to_site(scenario.destinations)
     cells = make_d_scheme(n_scheme).directions_of_site.copy()
-    cells[sites[going]] |= kernels.OCCUPIED
-    cells[layout.cell_to_site(scenario.destinations)] = kernels.DESTINATION
-    costs, queue_of_direction = np.unique(tessellation.cost_of_direction, return_inverse=True)
-    forbids = scenario.crossing == "forbid"
-    capacity = scenario.destination_capacity or 0
-    recording = Recording(scenario, going.size)
-    state = (
-        np.zeros(layout.size if forbids else 0, dtype=np.int32),
-        np.zeros(layout.size if capacity else 1, dtype=np.int32),
-        np.zeros(layout.size if capacity else 1, dtype=np.int32),
-        np.stack([sites[going], going.astype(np.int32), distance[going], cells[sites[going]] & kernels.DIRECTIONS]),
-        np.empty((4 * (costs.size + 1), going.size), dtype=np.int32),
-    )
-    step, active = 0, going.size
-    while active:
-        step, active, steps = kernels.descend(
-            cells,
-            layout.offset_of_direction,
-            layout.vertex_of_direction,
-            tessellation.cost_of_direction,
-            queue_of_direction.astype(np.int64) + 1,
-            kernels.FIRST_OF_BITS,
-            tessellation.edge_count if forbids else tessellation.direction_count,
-            capacity,
-            step,
-            active,
-            BUDGET,
-            *state,
-            *recording.new_log(),
-            recording.arrival,
+    region_of_site = np.zeros(layout.size, dtype=np.int32)
+    region_of_site[destinations] = regions_of(scenario) + 1
+
+    def find_regions(starts: NDArray[np.int32]) -> NDArray[np.int64]:
+        region = np.empty(starts.size, dtype=np.int32)
+        kernels.find_regions(starts, cells, layout.offset_of_direction, region_of_site, region)
+        return region.astype(np.int64) - 1
+
+    crowd = make_crowd(n_scheme, find_regions)
+    cells[destinations] = kernels.DESTINATION
+    recording = Recording(crowd, keeps_actions)
+
+    def simulate(
+        block: int,
+        first_step: int,
+        steps: int,
+        regions: NDArray[np.int64],
+        robot_of_row: NDArray[np.int32],
+        action_of_row: NDArray[np.uint8],
+    ) -> None:
+        kernels.descend(
+            *(layout.offset_of_direction, layout.vertex_of_direction, *crowd.rules, block, first_step, steps),
+            *(cells, region_of_site, crowd.robot_at, crowd.passed, *crowd.entered),
+            *(regions, crowd.first_of_region, crowd.count_of_region, crowd.listed),
+            *(crowd.site_of_robot, crowd.row_of_robot, crowd.asked),
+            *(robot_of_row, action_of_row, crowd.arrival, scenario.waiting_cost, recording.lost),
         )
-        recording.keep(steps)
-        if progress:
-            progress(going.size - active, going.size)
-    return recording.make_plan("greedy")
+
+    recording.run(simulate, progress, limit)
+    return recording

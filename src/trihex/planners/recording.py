@@ -1,68 +1,110 @@
-"""Recording: the moves of a simulation, step by step, and the plan that they make."""
+"""Recording: what the robots of a crowd do, block by block, and the plan or the arrivals that it makes."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from trihex.arrivals import Arrivals
 from trihex.plan import WAIT, Plan
-from trihex.scenario import Scenario
+from trihex.planners.crowd import Crowd
 
-# Robot-steps between two looks at the keyboard: a few hundredths of a second.
-BUDGET = 1_000_000
-_STEPS = 1 << 14
+Progress = Callable[[int, int], None]
 
 
-class Log(NamedTuple):
-    """Arrays that a kernel fills: who moved, how, and how many had moved by the end of each step."""
+class Rows(NamedTuple):
+    """The actions of some robots during a block of steps."""
 
-    robot: NDArray[np.int32]
-    action: NDArray[np.uint8]
-    end: NDArray[np.int64]
+    robot_of_row: NDArray[np.int32]
+    action_of_row: NDArray[np.uint8]
+    steps: int
+    first_step: int
 
 
-@dataclass(eq=False)
 class Recording:
-    """Moves of robots, in blocks of steps.
+    """What the robots of a crowd have done so far.
 
-    Only moves are kept, 5 bytes each: whatever is not recorded until the arrival of a robot was a wait. Crowds that
-    wait cost nothing here, and the plan is laid out once its length is known.
+    Parameters
+    ----------
+    crowd : Crowd
+    keeps_actions : bool
+        Whether to keep the actions, a byte for each robot and step, or to add up times only.
     """
 
-    scenario: Scenario
-    robots: int
-    blocks: list[tuple[Log, int]] = field(default_factory=list)
+    def __init__(self, crowd: Crowd, keeps_actions: bool) -> None:
+        self.crowd = crowd
+        self.keeps_actions = keeps_actions
+        self._rows: list[Rows] = []
+        tessellation = crowd.scenario.area.tessellation
+        self._cost_of_action = np.full(WAIT + 1, crowd.scenario.waiting_cost, dtype=np.int64)
+        self._cost_of_action[: tessellation.direction_count] = tessellation.cost_of_direction
+        self._time = np.zeros(crowd.robot.size, dtype=np.int64)
+        #: What all robots have lost: the cost of waits, and of moves beyond what they came nearer.
+        self.lost = np.zeros(1, dtype=np.int64)
 
-    def __post_init__(self) -> None:
-        #: The step in which each robot arrives, 0 until then.
-        self.arrival = np.zeros(self.scenario.robot_count, dtype=np.int64)
-        self._log = self._new_log()
+    @property
+    def total_time(self) -> int:
+        """Sum of t_r so far and of the distances that are left, which can only grow."""
+        return self.crowd.total_distance + int(self.lost[0])
 
-    def _new_log(self) -> Log:
-        size = max(BUDGET, 2 * self.robots)
-        return Log(np.empty(size, dtype=np.int32), np.empty(size, dtype=np.uint8), np.empty(_STEPS, dtype=np.int64))
+    @property
+    def is_over(self) -> bool:
+        """Whether all have arrived."""
+        return self.crowd.going == 0
 
-    def new_log(self) -> Log:
-        """Return arrays to fill next."""
-        return self._log
+    def run(self, simulate: Callable[..., None], progress: Progress | None, limit: float) -> None:
+        """Simulate until all have arrived, or the total time is sure to be `limit` or more.
 
-    def keep(self, steps: int) -> None:
-        """Keep what was put into the log during `steps` steps."""
-        moves = int(self._log.end[steps - 1]) if steps else 0
-        robot, action, end = self._log
-        self.blocks.append((Log(robot[:moves].copy(), action[:moves].copy(), end[:steps].copy()), steps))
+        ``simulate(block, first_step, steps, regions, robot_of_row, action_of_row)`` lets the robots of some regions
+        act for a block of steps, and adds to `lost`.
+        """
+        crowd, first_step, block = self.crowd, 0, 0
+        going = crowd.going
+        while not self.is_over:
+            steps, block = crowd.steps_of_block(), block + 1
+            for regions in crowd.parts(steps):
+                count = int(crowd.count_of_region[regions].sum())
+                rows = Rows(np.empty(count, np.int32), np.empty(count * steps, np.uint8), steps, first_step)
+                simulate(block, first_step, steps, regions, *rows[:2])
+                self._keep(rows)
+                if self.total_time >= limit:
+                    return
+            first_step += steps
+            if progress is not None:
+                progress(going - crowd.going, going)
+
+    def _keep(self, rows: Rows) -> None:
+        from trihex.kernels.rows import add_times
+
+        if self.keeps_actions:
+            self._rows.append(rows)
+        else:
+            add_times(*rows, self.crowd.arrival, self._cost_of_action, self._time)
+
+    def _by_robot(self, values: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Return values of the crowd's robots by their numbers in the scenario, 0 for all others."""
+        by_robot = np.zeros(self.crowd.scenario.robot_count, dtype=np.int64)
+        by_robot[self.crowd.robot[1:]] = values[1:]
+        return by_robot
 
     def make_plan(self, planner: str) -> Plan:
-        """Return the plan that was recorded."""
-        from trihex.kernels.planning import write_moves
+        """Return the plan, once all have arrived."""
+        from trihex.kernels.rows import write_rows
 
-        first_action = np.concatenate([[0], np.cumsum(self.arrival)])
-        actions = np.full(first_action[-1], WAIT, dtype=np.uint8)
-        first_step = 0
-        for log, steps in self.blocks:
-            write_moves(*log, steps, first_step, first_action, actions)
-            first_step += steps
-        return Plan(self.scenario, actions, first_action, planner=planner)
+        first_action = np.concatenate([[0], np.cumsum(self._by_robot(self.crowd.arrival))])
+        actions = np.empty(first_action[-1], dtype=np.uint8)
+        while self._rows:  # one after the other, so that what is written is freed
+            robot_of_row, action_of_row, steps, first_step = self._rows.pop()
+            write_rows(self.crowd.robot[robot_of_row], action_of_row, steps, first_step, first_action, actions)
+        return Plan(self.crowd.scenario, actions, first_action, planner=planner)
+
+    def make_arrivals(self, planner: str) -> Arrivals:
+        """Return the arrivals, once all have arrived."""
+        scenario, arrival = self.crowd.scenario, self._by_robot(self.crowd.arrival)
+        starts_there = np.isin(scenario.robots, scenario.destinations)
+        return Arrivals(
+            scenario, np.where((arrival == 0) & ~starts_there, -1, arrival), self._by_robot(self._time), planner
+        )

@@ -1,0 +1,109 @@
+"""Crowd: the robots that are under way, region by region, as the kernels that simulate them want them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trihex.scenario import Scenario
+from trihex.schemes import NOT_REACHED, NScheme
+
+# Steps of a block: as many as there are bits for the steps in which a vertex is passed. Robot-steps between two looks
+# at the keyboard: a few hundredths of a second.
+MOST_STEPS = 32
+BUDGET = 1_000_000
+_TILE = 64
+
+
+@dataclass(eq=False)
+class Crowd:
+    """Robots under way, numbered from 1 by region and, within a region, by distance; 0 is nobody.
+
+    Made by `make_crowd`; kernels change its arrays.
+    """
+
+    scenario: Scenario
+    #: Number in the scenario, and start, of each robot; entry 0 is unused.
+    robot: NDArray[np.int32]
+    site_of_robot: NDArray[np.int32]
+    #: The distances of all starts together: no plan takes less.
+    total_distance: int
+    #: Each region's part of `listed`: the robots that have not arrived.
+    first_of_region: NDArray[np.int64]
+    count_of_region: NDArray[np.int64]
+    listed: NDArray[np.int32]
+
+    def __post_init__(self) -> None:
+        size, layout = self.robot.size, self.scenario.area.layout
+        forbids, has_capacity = self.scenario.crossing == "forbid", self.scenario.destination_capacity is not None
+        #: The step in which each robot arrives, 0 until then.
+        self.arrival = np.zeros(size, dtype=np.int64)
+        self.row_of_robot = np.zeros(size, dtype=np.int32)
+        self.asked = np.zeros(size, dtype=np.int32)
+        self.robot_at = np.zeros(layout.size, dtype=np.int32)
+        self.robot_at[self.site_of_robot] = np.arange(size)
+        #: For each lattice vertex in which steps of which block it was passed; and of each site when and by how many
+        #: robots it was last entered.
+        self.passed = np.zeros(layout.size if forbids else 1, dtype=np.int64)
+        self.entered = [np.zeros(layout.size if has_capacity else 1, dtype=np.int32) for _ in range(2)]
+
+    @property
+    def going(self) -> int:
+        """How many robots are still under way."""
+        return int(self.count_of_region.sum())
+
+    @property
+    def rules(self) -> tuple[int, int]:
+        """Return the first vertex move that nobody may cross, and the capacity of destinations (0: any)."""
+        tessellation = self.scenario.area.tessellation
+        forbids = self.scenario.crossing == "forbid"
+        first = tessellation.edge_count if forbids else tessellation.direction_count
+        return first, self.scenario.destination_capacity or 0
+
+    def parts(self, steps: int) -> list[NDArray[np.int64]]:
+        """Part the regions that hold robots so that `steps` steps of each part are one call of a kernel."""
+        regions = np.flatnonzero(self.count_of_region)
+        if regions.size == 0:
+            return []
+        so_far = np.cumsum(self.count_of_region[regions]) * steps
+        return np.split(regions, np.flatnonzero(np.diff(so_far // BUDGET)) + 1)
+
+    def steps_of_block(self) -> int:
+        """Return how many steps to simulate at a time."""
+        largest = int(self.count_of_region.max(initial=1))
+        return int(min(MOST_STEPS, max(1, 4 * BUDGET // largest)))
+
+
+def regions_of(scenario: Scenario, at_once: bool = False) -> NDArray[np.int64]:
+    """Return the region, from 0 without gaps, of each destination: a tile of the area, or all of it."""
+    if at_once:
+        return np.zeros(scenario.destinations.size, dtype=np.int64)
+    y, x = scenario.destinations // scenario.area.width, scenario.destinations % scenario.area.width
+    _, region = np.unique(np.stack([y // _TILE, x // _TILE]), axis=1, return_inverse=True)
+    return region.reshape(-1).astype(np.int64)
+
+
+def make_crowd(n_scheme: NScheme, find_regions: Callable[[NDArray[np.int32]], NDArray[np.int64]]) -> Crowd:
+    """Return the crowd of a scenario; ``find_regions(starts)`` tells the region of each start."""
+    scenario = n_scheme.scenario
+    site = scenario.area.layout.cell_to_site(scenario.robots)
+    distance = n_scheme.distance_of_site[site]
+    robot = np.flatnonzero((distance != NOT_REACHED) & (distance != 0))
+    # In the order of their sites: neighbours' ways share cells, which makes finding regions three times as fast.
+    robot = robot[np.argsort(site[robot])]
+    region = find_regions(site[robot])
+    order = np.lexsort((distance[robot], region))
+    robot, region = robot[order], region[order]
+    count = np.bincount(region, minlength=1)
+    return Crowd(
+        scenario,
+        np.append(0, robot).astype(np.int32),
+        np.append(0, site[robot]).astype(np.int32),
+        int(distance[robot].sum(dtype=np.int64)),
+        np.cumsum(count) - count,
+        count.astype(np.int64),
+        np.arange(1, robot.size + 1, dtype=np.int32),
+    )
