@@ -30,6 +30,7 @@ areas = {generator = "random", size = [12, 9], density = 0.1}
 @pytest.fixture
 def study(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(run, "_SECONDS_AT_ONCE", 0)  # few runs at a time, however fast they are
     (tmp_path / "study.toml").write_text(STUDY)
     return th.read_study("study.toml")
 

@@ -138,6 +138,22 @@ def test_an_executor_that_breaks_ends_the_study():
         th.run_study(RUNS, executor=Losing(9, BrokenExecutor("all dead")))
 
 
+def test_short_runs_are_given_out_together_and_those_of_one_scenario_always_are():
+    calls = []
+
+    class Counting(ThreadPoolExecutor):
+        def submit(self, function, trials, *arguments):
+            calls.append([trial["seed"] for trial in trials])
+            return super().submit(function, trials, *arguments)
+
+    runs = [{**RUNS[0], "seed": seed, "planner": planner} for seed in range(60) for planner in ("greedy", "fcost")]
+    with Counting(1) as pool:
+        assert len(th.run_study(runs, executor=pool)) == 120
+    assert [seed for seeds in calls for seed in seeds] == [run["seed"] for run in runs]
+    assert all(seeds[0] == seeds[1] and seeds[-1] == seeds[-2] for seeds in calls)
+    assert len(calls[0]) == 2 and max(map(len, calls)) > 4
+
+
 def test_a_fault_is_a_row(monkeypatch):
     def broken(*_, **__):
         raise ZeroDivisionError("by\nzero")

@@ -24,6 +24,11 @@ class Cluster:
     def __init__(self, client: Any) -> None:
         self.client = client
 
+    @property
+    def _max_workers(self) -> int:
+        """How many threads work, by the name that executors of Python give it."""
+        return max(1, int(sum(self.client.nthreads().values())))
+
     def submit(self, function: Callable[..., Any], /, *arguments: Any) -> Any:
         """Return a future of `function` called with `arguments` by some worker."""
         return self.client.submit(function, *arguments, pure=False)

@@ -19,9 +19,12 @@ from trihex.studies.trial import COLUMNS, Row, Trial, blank_row
 from trihex.studies.worker import LIVES, Limits, close_workers, run_trials
 
 Progress = Callable[[int, int], None]
-# Groups of runs that an executor has at a time: enough for it never to wait, and no burden on a scheduler.
-_IN_FLIGHT = 1024
-_LARGEST_GROUP = 64
+# Groups of runs that each worker has at a time, so that none waits, and how many workers there are if nobody tells.
+_IN_FLIGHT = 3
+_WORKERS = 256
+# Short runs are given to a worker together, as many as take about this long: a task of Dask costs some 10 ms of CPU.
+_SECONDS_AT_ONCE = 0.3
+_LARGEST_GROUP = 200
 _ROWS_AT_ONCE = 1000
 
 
@@ -169,25 +172,46 @@ def _given(executor: Executor) -> Iterator[Executor]:
 
 @dataclass
 class _Group:
-    """Runs given to a worker together, because they are of one scenario."""
+    """Runs given to a worker together."""
 
     runs: list[int]
     trials: list[Trial]
     lives: int = LIVES
 
 
-def _groups(study: Study, todo: Iterator[int]) -> Iterator[_Group]:
-    group: _Group | None = None
+@dataclass
+class _Pace:
+    """How long runs take, and so how many of them make a group."""
+
+    runs: int = 0
+    seconds: float = 0.0
+
+    def note(self, rows: Iterable[Row]) -> None:
+        """Take rows that are done into account."""
+        for row in rows:
+            self.runs += 1
+            self.seconds += sum(row[name] or 0.0 for name in COLUMNS if name.startswith("seconds"))
+
+    @property
+    def group_size(self) -> int:
+        """How many runs make a group."""
+        if not self.runs:
+            return 1
+        return max(1, min(_LARGEST_GROUP, int(_SECONDS_AT_ONCE * self.runs / max(self.seconds, 1e-6))))
+
+
+def _groups(study: Study, todo: Iterator[int], pace: _Pace) -> Iterator[_Group]:
+    """Yield groups of runs; those of one scenario stay together unless there are too many."""
+    group = _Group([], [])
     for run in todo:
         trial = study.trials[run]
-        if group is not None and len(group.runs) < _LARGEST_GROUP and _is_alike(trial, group.trials[-1]):
-            group.runs.append(run)
-            group.trials.append(trial)
-            continue
-        if group is not None:
+        is_full = len(group.runs) >= pace.group_size and not _is_alike(trial, group.trials[-1])
+        if is_full or len(group.runs) >= _LARGEST_GROUP:
             yield group
-        group = _Group([run], [trial])
-    if group is not None:
+            group = _Group([], [])
+        group.runs.append(run)
+        group.trials.append(trial)
+    if group.runs:
         yield group
 
 
@@ -199,7 +223,8 @@ def _is_alike(one: Trial, other: Trial) -> bool:
 def _done(study: Study, todo: Iterator[int], executor: Executor | None, *, apart: bool) -> Iterator[list[Row]]:
     """Yield rows, those of some runs at a time, in whatever order they are done."""
     limits = Limits(study.seconds, study.memory)
-    groups = _groups(study, todo)
+    pace = _Pace()
+    groups = _groups(study, todo, pace)
     if executor is None:
         for group in groups:
             for run, trial in zip(group.runs, group.trials, strict=True):
@@ -213,11 +238,14 @@ def _done(study: Study, todo: Iterator[int], executor: Executor | None, *, apart
         in_flight[group.runs[0]] = future
         future.add_done_callback(lambda future: done.put((group, future)))
 
+    most = _IN_FLIGHT * (getattr(executor, "_max_workers", None) or _WORKERS)
     try:
         for group in groups:
             submit(group)
-            if len(in_flight) >= _IN_FLIGHT:
-                yield _collected(done, in_flight, submit)
+            while len(in_flight) >= most:
+                rows = _collected(done, in_flight, submit)
+                pace.note(rows)
+                yield rows
         while in_flight:
             yield _collected(done, in_flight, submit)
     finally:

@@ -162,9 +162,13 @@ def _n_scheme_of(trial: Trial) -> tuple[NScheme, Row]:
         key = _key(trial)
         n_scheme, took = _latest("field", key, lambda: _timed(lambda: make_n_scheme(given)))
         return n_scheme, {"seconds_field": took}
-    parts = {name: trial[name] for name in ("folder", "area", "tessellation", "seed")}
+    parts = {name: trial[name] for name in ("folder", "area", "tessellation")}
+    if "generator" in trial["area"]:
+        parts["seed"] = trial["seed"]
     draft, took = _latest("area", _text(parts), lambda: _timed(lambda: _draft_of(trial)))
     parts |= {name: trial[name] for name in ("rules", "destinations")}
+    if trial["destinations"].get("place") == "random":
+        parts["seed"] = trial["seed"]
     empty, took_field = _latest(
         "field", _text(parts), lambda: _timed(lambda: make_n_scheme(_scenario_of(trial, draft)))
     )
