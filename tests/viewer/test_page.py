@@ -80,7 +80,9 @@ def test_two_plans_are_shared_side_by_side(open_viewer, browser, tmp_path, plan)
     other = make_plan(th.Scenario(area, plan.scenario.destinations, plan.scenario.robots))
     for pane, one in ((0, plan), (1, other)):
         there = next(cells for step, cells in enumerate(one.cells_by_step()) if step == 4)
-        seen = sum(is_near(alone.colours(pane, (0, -0.2)), c, 40).ravel() for c in (palette.MOVING, palette.WAITING)) > 0
+        seen = (
+            sum(is_near(alone.colours(pane, (0, -0.2)), c, 40).ravel() for c in (palette.MOVING, palette.WAITING)) > 0
+        )
         assert set(np.flatnonzero(seen)) <= set(there) and np.count_nonzero(seen) > 10
     alone.keep("page-of-two-plans")
     assert alone.faults == shown.faults == []
@@ -104,5 +106,12 @@ def test_the_command_writes_it(tmp_path, plan):
     assert done.exit_code == 0, done.output
     th.write_page(plan, tmp_path / "same.html")
     assert (tmp_path / "plan.html").read_bytes() == (tmp_path / "same.html").read_bytes()
+    th.write_plan(make_plan(plan.scenario, "fcost"), tmp_path / "other.npz")
+    both = ["animate", str(tmp_path / "plan.npz"), "--beside", str(tmp_path / "other.npz"), "--out"]
+    done = CliRunner().invoke(main, [*both, str(tmp_path / "both.html")])
+    assert done.exit_code == 0, done.output
+    assert (tmp_path / "both.html").stat().st_size > (tmp_path / "plan.html").stat().st_size
+    done = CliRunner().invoke(main, [*both, str(tmp_path / "both.gif")])
+    assert done.exit_code == 2 and "--beside is for pages (.html)" in done.output
     with pytest.raises(th.FormatError, match="suffix of a page"):
         th.write_page(plan, tmp_path / "plan.pdf")

@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from trihex.cli.options import PATH, area_options, read_judged, rule_options
+from trihex.cli.options import PATH, area_options, read_judged, rule_options, wrong_use
 from trihex.cli.outputs import check_outputs
 from trihex.cli.progress import bar
 from trihex.cli.types import Whole
@@ -22,13 +22,15 @@ from trihex.cli.types import Whole
 @click.option("--width", type=Whole(1), help="Pixels across the cells. [default: what suits the area]")
 @click.option("--frames-per-second", type=Whole(1), default=20, show_default=True, help="At most 50.")
 @click.option("--max-frames", type=Whole(2), default=240, show_default=True, help="A long plan is shown in as many.")
+@click.option("--title", metavar="TEXT", help="Above the picture; '' leaves it out. [default: planner and area]")
+@click.option("--clock/--no-clock", default=True, help="Whether to tell the step and how many have arrived.")
+@click.option("--legend/--no-legend", default=True, help="Whether to explain the colours.")
+@click.option("--beside", type=PATH, metavar="PLAN", help="Pages: another plan, played beside it on the same clock.")
 def command(
     plan: Path,
     area: Path | None,
     out: Path,
-    width: int | None,
-    frames_per_second: int,
-    max_frames: int,
+    beside: Path | None,
     **options: Any,
 ) -> None:
     """Draw the robots of a plan on their way, coloured by their sets.
@@ -41,14 +43,17 @@ def command(
     from trihex.viewer.page import SUFFIXES as PAGE_SUFFIXES
     from trihex.viewer.page import write_page
 
+    drawn = {
+        name: options.pop(name) for name in ("width", "frames_per_second", "max_frames", "title", "clock", "legend")
+    }
     check_outputs((out, (*SUFFIXES, *PAGE_SUFFIXES), "a movie"))
+    if beside is not None and out.suffix.lower() not in PAGE_SUFFIXES:
+        raise wrong_use(f"--beside is for pages (.html); {out} shows one plan")
     shown = read_judged(plan, area, options)
     if out.suffix.lower() in PAGE_SUFFIXES:
-        write_page(shown, out)
+        write_page(shown, out, beside=None if beside is None else read_judged(beside, area, options))
         click.echo(f"{out}: {shown.scenario.robot_count} robots, {shown.steps} steps")
         return
     with bar("drawing", "frames") as progress:
-        write_animation(
-            shown, out, width=width, frames_per_second=frames_per_second, max_frames=max_frames, progress=progress
-        )
+        write_animation(shown, out, progress=progress, **drawn)
     click.echo(f"{out}: {shown.scenario.robot_count} robots, {shown.steps} steps")
