@@ -91,7 +91,7 @@ def run_command(words: list[str], folder: Path, *, must_run: bool) -> None:
     assert command is not None, f"there is no command trihex {words[0]}"
     command.make_context(f"trihex {words[0]}", list(words[1:]))  # refuses options that do not exist
     outputs = {words[i + 1] for i, word in enumerate(words[:-1]) if word in ("--out", "--picture")}
-    inputs = [word for word in words if re.search(r"\.(map|txt|toml|csv|npz|yaml|png|geojson|wkt|scen)$", word)]
+    inputs = [word for word in words if re.search(r"\.(map|txt|toml|csv|npz|yaml|png|geojson|wkt|scen|npy)$", word)]
     is_here = all((folder / word).exists() for word in inputs if word not in outputs)
     if words[0] in NOT_RUN or not (is_here or must_run):
         return
