@@ -24,7 +24,7 @@ Planner = Callable[..., Plan]
 RECORDS = ("plan", "arrivals")
 
 # Name: the module under trihex.planners that defines plan_<name>.
-PLANNERS: dict[str, str] = {"greedy": "greedy", "fcost": "fcost"}
+PLANNERS: dict[str, str] = {"greedy": "greedy", "fcost": "fcost", "astar": "astar", "optimal": "optimal"}
 
 
 def planner_named(name: str) -> Planner:

@@ -12,11 +12,14 @@ from numpy.typing import NDArray
 
 from trihex.errors import TooLargeError
 from trihex.planners.network import Network
+from trihex.record import read_only
 
-# Bytes for each node of a layer: two labels, flow, parent, two marks.
-BYTES_PER_NODE = 12
+# Bytes for each node of a layer: flow and two bounds.
+BYTES_PER_NODE = 9
 # Small pieces of work between two looks at the keyboard: some 0.1 s.
-_BUDGET = 1_000_000
+_BUDGET = 500_000
+# Length of the lists of the search at first.
+_LIST = 1 << 12
 _GIB = 1 << 30
 
 
@@ -46,7 +49,6 @@ def make_flow(
     *,
     progress: Callable[[int, int], None] | None = None,
     memory_limit: int | None = None,
-    layers: int | None = None,
 ) -> Flow:
     """Find paths of least total cost for robots that start in `cells`, nodes of the network.
 
@@ -59,8 +61,6 @@ def make_flow(
         Called with (robots with a path, robots).
     memory_limit : int, optional
         In bytes. Default: 80 % of what is available.
-    layers : int, optional
-        Forbid arrivals after this step. Default: no limit.
 
     Raises
     ------
@@ -69,80 +69,79 @@ def make_flow(
     """
     from trihex.kernels import flow as kernels
 
-    nodes = network.node_count
+    size = network.node_count
     limit = _available_memory() * 4 // 5 if memory_limit is None else memory_limit
-    start_of_robot = network.hops[cells].astype(np.int64) * nodes + cells
     capacity = network.scenario.destination_capacity
-    count = layers + 1 if layers is not None else _least_layers(network, cells) + 8
-    _check_memory(nodes, count, cells.size, limit)
-    state = np.zeros(kernels.STATE_SIZE, dtype=np.int64)
-    state[kernels.FREE_ENTRY] = state[kernels.HIGHEST] = -1
-    state[kernels.LOWEST] = 2 * count * nodes
-    arrays: tuple[NDArray[Any], ...] = tuple(
-        np.zeros(sides * count * nodes, dtype=dtype)
-        for sides, dtype in ((2, np.int32), (1, np.uint8), (1, np.uint8), (2, np.uint16))
+    layers = _least_layers(network, cells) + 8
+    _check_memory(size, layers, cells.size, limit)
+    is_vertex = (np.arange(size) >= network.cell_count) & (np.arange(size) < network.first_destination)
+    layer = kernels.Layer(
+        network.out_arcs,
+        network.in_arcs,
+        network.hops,
+        read_only(np.lexsort((is_vertex, -network.hops)).astype(np.int32)),
+        read_only(is_vertex),
+        network.first_destination,
+        255 if capacity is None else min(capacity, 255),
+        network.base,
+        int(np.gcd.reduce(network.out_arcs[:, :, 3], axis=None)) or kernels.MARK,
     )
-    label, flow, parent, mark = arrays
-    stack = np.empty(1 << 12, dtype=np.int64)
-    entry_side, entry_next = np.empty(1 << 12, dtype=np.int64), np.empty(1 << 12, dtype=np.int64)
-    due_first = np.full(kernels.WINDOW, -1, dtype=np.int64)
-    trail = [np.empty(1 << 10, dtype=dtype) for dtype in (np.int64, np.int64, np.uint8, *[np.int64] * 6)]
-    lacking = np.zeros(nodes, dtype=np.uint8)
-    state[63]=int(os.environ.get('INF','10'))
-    state[62]=int(os.environ.get('PEN','5'))
-    away, queue = np.full(nodes, kernels.NOT_NEAR, dtype=np.int32), np.empty(20*nodes, dtype=np.int32)
-    while True:
-        status = kernels.search(
-            network.first_destination,
-            network.cell_count,
-            255 if capacity is None else min(capacity, 255),
-            layers is not None,
-            network.out_arcs,
-            network.in_arcs,
-            network.hops,
-            start_of_robot,
-            network.value[cells].astype(np.int64),
-            lacking,
-            away,
-            queue,
-            label,
-            flow,
-            parent,
-            mark,
-            stack,
-            due_first,
-            entry_side,
-            entry_next,
-            *trail,
-            state,
-            _BUDGET,
+    nodes = kernels.Nodes(*(np.zeros(layers * size, dtype) for dtype in (np.uint8, np.int32, np.int32)))
+    back, ahead = (
+        kernels.Search(
+            np.empty(_LIST, dtype=np.int64),
+            np.empty((_LIST, 4), dtype=np.int64),
+            np.array([0, 0, 0, kernels.MARK, 0], dtype=np.int64),
         )
+        for _ in range(2)
+    )
+    lacks = np.zeros(size, dtype=np.uint8)
+    lacks[cells] = 1
+    ends = kernels.Ends(
+        read_only(network.hops[cells].astype(np.int64) * size + cells),
+        read_only(network.value[cells].astype(np.int64)),
+        lacks,
+        np.empty(layers * (size - network.first_destination), dtype=np.int64),
+        np.zeros(size, dtype=np.int32),
+        np.empty(size, dtype=np.int32),
+    )
+    state = np.zeros(kernels.STATE_SIZE, dtype=np.int64)
+    state[kernels.LEVEL] = -1
+    state[kernels.SIDE] = kernels.AHEAD
+    while True:
+        status = kernels.search(layer, nodes, back, ahead, ends, state, _BUDGET)
         if progress:
             progress(int(state[kernels.SERVED]), cells.size)
         if status == kernels.DONE:
-            return Flow(network, start_of_robot, flow, int(state[kernels.TOTAL]) * network.unit)
-        if status == kernels.STACK_FULL:
-            stack = _grown(stack, stack.size + 2 * int(state[kernels.TRAIL]))
-        elif status == kernels.ENTRIES_FULL:
-            entry_side, entry_next = _grown(entry_side), _grown(entry_next)
-        elif status == kernels.TRAIL_FULL:
-            trail = [_grown(array) for array in trail]
+            return Flow(network, ends.start, nodes.flow, int(state[kernels.TOTAL]) * network.unit)
+        if status == kernels.LIST_FULL:
+            back, ahead = _with_room(back), _with_room(ahead)
         elif status == kernels.LAYERS_FULL:
-            more = max(8, count // 2)
-            _check_memory(nodes, count + more, cells.size, limit)
-            count += more
-            label, flow, parent, mark = (
-                _grown(array, array.size // (count - more) * more) for array in (label, flow, parent, mark)
-            )
+            more = max(8, layers // 2)
+            _check_memory(size, layers + more, cells.size, limit)
+            nodes = kernels.Nodes(*(_grown(array, array.size // layers * more) for array in nodes))
+            ends = ends._replace(goals=_grown(ends.goals, ends.goals.size // layers * more))
+            layers += more
         elif status == kernels.LEVELS_FULL:
             raise TooLargeError(
-                "costs above 2^30 units for one robot cannot be searched; choose a smaller waiting_cost"
+                "costs above 2^29 units for one robot cannot be searched; choose a smaller waiting_cost"
             )
 
 
-def _grown(array: NDArray[Any], more: int = 0) -> NDArray[Any]:
-    """Return a copy with room for twice as many entries, or `more`; the new ones are 0."""
-    grown = np.zeros(array.size + (more or array.size), dtype=array.dtype)
+def _with_room(search: Any) -> Any:
+    """Return a search with larger lists if they are nearly full."""
+    from trihex.kernels import flow as kernels
+
+    if search.state[kernels.LOGGED] + 2 * kernels.ROOM < search.stack.size:
+        return search
+    log = np.empty((2 * len(search.log), search.log.shape[1]), dtype=np.int64)
+    log[: len(search.log)] = search.log
+    return search._replace(stack=_grown(search.stack, search.stack.size), log=log)
+
+
+def _grown(array: NDArray[Any], more: int) -> NDArray[Any]:
+    """Return a copy with room for `more` entries; the new ones are 0."""
+    grown = np.zeros(array.size + more, dtype=array.dtype)
     grown[: array.size] = array
     return grown
 

@@ -37,14 +37,16 @@ class Network(Record):
     cell_count, vertex_count : int
     unit : int
         What all costs are multiples of.
+    base : int
+        What each step costs at least, in units.
     hops : ndarray of int32, shape (nodes,)
         Least number of steps to a destination.
     value : ndarray of int32, shape (nodes,)
         Least cost to a destination, in units.
     out_arcs, in_arcs : ndarray of int32, shape (nodes, most arcs, 4)
         Of each arc that leaves or enters a node: what to add to the index to get the other node (0: no more arcs), its
-        reduced cost, its place among the arcs of the other node (plus `TO_GOAL` where it leads to a destination), the
-        other node. Arcs leave in descending order of reduced cost.
+        reduced cost, its place among the arcs of the other node (plus `TO_GOAL` where it leads to a destination), and
+        what it costs beyond `base` a step. In descending order of reduced cost.
     """
 
     scenario: Scenario
@@ -52,6 +54,7 @@ class Network(Record):
     cell_count: int
     vertex_count: int
     unit: int
+    base: int
     hops: NDArray[np.int32]
     value: NDArray[np.int32]
     out_arcs: NDArray[np.int32]
@@ -115,18 +118,23 @@ def make_network(n_scheme: NScheme, objective: str = "time") -> Network:
     ]
     tail, head, cost, steps = np.concatenate(arcs).T
     reduced = (cost + value[head] - value[tail]) // unit
+    base = min(waiting_cost, *cost_of_direction.tolist())
+    is_vertex = np.zeros(sites.size, dtype=np.int64)
+    is_vertex[cells.size : first_goal] = 1
+    extra = (cost - base * (steps + is_vertex[head] - is_vertex[tail])) // unit
     offset = (steps + hops[head] - hops[tail]) * sites.size + head - tail
-    place_out, place_in = _places(tail, -reduced), _places(head, 0 * head)
+    place_out, place_in = _places(tail, -reduced), _places(head, -reduced)
     return Network(
         scenario,
         read_only(sites.astype(np.int32)),
         cells.size,
         vertices.size,
         unit,
+        base // unit,
         read_only(hops.astype(np.int32)),
         read_only((value // unit).astype(np.int32)),
-        _table(sites.size, tail, place_out, offset, reduced, place_in + TO_GOAL * (head >= first_goal), head),
-        _table(sites.size, head, place_in, -offset, reduced, place_out, tail),
+        _table(sites.size, tail, place_out, offset, reduced, place_in + TO_GOAL * (head >= first_goal), extra),
+        _table(sites.size, head, place_in, -offset, reduced, place_out, extra),
     )
 
 

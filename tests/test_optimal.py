@@ -9,6 +9,13 @@ from tests.strategies import random_scenario
 from trihex.planners import make_plan
 
 
+def cannot_always_be_proven(scenario):
+    """Where an exchange of cells had to be parted, or one vertex serves moves of several costs."""
+    tessellation = scenario.area.tessellation
+    two_costs = tessellation.name == "triangular" and tessellation.costs == "euclidean"
+    return scenario.waiting_cost > tessellation.edge_cost or (two_costs and scenario.crossing == "forbid")
+
+
 @pytest.mark.parametrize("share", range(10))
 def test_the_least_total_time_is_that_of_integer_programming(share):
     proven = 0
@@ -19,8 +26,8 @@ def test_the_least_total_time_is_that_of_integer_programming(share):
         least = least_total_time(scenario, 8 + scenario.robot_count)
         if plan.optimal:
             assert plan.total_time == least, seed
-        else:  # an exchange of cells had to be parted where waiting costs more than a move
-            assert scenario.waiting_cost > scenario.area.tessellation.edge_cost, seed
+        else:
+            assert cannot_always_be_proven(scenario), seed
             assert plan.total_time >= least, seed
         proven += plan.optimal
     assert proven >= 28
