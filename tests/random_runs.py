@@ -41,6 +41,7 @@ def random_trial(seed, **limits):
         scenario,
         ("fcost", "greedy")[rng.integers(2)],
         aside=("always", "worth", "never")[rng.integers(3)],
+        replan=seed % 5 == 0,
         sensor=None if radius is None else Sensor(scenario.area.tessellation, radius, bool(rng.integers(2))),
         events=random_events(rng, scenario, int(rng.integers(25))),
         delay=DELAYS[rng.integers(len(DELAYS))],

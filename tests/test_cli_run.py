@@ -69,7 +69,7 @@ def test_pictures_and_movies_show_what_is_known(folder):
     film = RunFilm(record, 100, 300, "")
     frames = list(film.frames())
     assert len(frames) == film.frame_count
-    fog = np.array([205, 212, 224])
+    fog = np.array([190, 198, 214])
     seen = [np.count_nonzero((frame == fog).all(axis=-1)) for frame in frames]
     assert seen[0] > seen[-1] and sorted(seen, reverse=True)[0] == seen[0]
 
@@ -100,6 +100,11 @@ def test_wrong_use_is_told_in_one_line(folder, command, why):
     result = run(*command, status=2)
     assert len(result.stderr.splitlines()) == 1
     assert re.search(why, result.stderr), result.stderr
+
+
+def test_robots_follow_plans_that_are_made_anew(folder):
+    assert "planner fcost" in run("world.txt", "--sense", "1", "--replan", "--budget", "5").stdout
+    assert "3 arrived" in run("world.txt", "--planner", "greedy", "--replan").stdout
 
 
 def test_a_plan_is_followed_in_its_order(folder):

@@ -215,7 +215,7 @@ def test_what_no_robot_can_follow_is_refused_and_changes_nothing():
     with pytest.raises(th.ExecutionError, match="robot 0 is not on its way: it has left"):
         execution.break_down(0)
     with pytest.raises(th.ExecutionError, match="planner of an execution must be one of greedy, fcost"):
-        Execution(row(3, []), "astar")
+        Execution(row(3, []), "magic")
 
 
 def test_an_execution_goes_on_from_a_state_with_the_same_moves():
@@ -232,3 +232,50 @@ def test_an_execution_goes_on_from_a_state_with_the_same_moves():
         for other in (Execution(scenario), execution):
             other.restore(state)
             assert [other.step().action_of_robot.tolist() for _ in range(6)] == rest, seed
+
+
+def crowd():
+    area = th.make_rooms_area("hexagonal", 20, 24, seed=2)
+    return th.Scenario(area, [(3, 4)], th.random_robots(area, 60, seed=1, avoid=[(3, 4)]))
+
+
+def test_plans_are_followed_until_the_world_changes_and_made_anew():
+    scenario = crowd()
+    execution = Execution(scenario, replan=True)
+    while not execution.is_over:
+        execution.step()
+    plan = th.make_plan(scenario)
+    assert execution.guide.plans == 1 and execution.steps_done <= plan.steps
+    execution = Execution(scenario, replan=True)
+    for _ in range(3):
+        execution.step()
+    taken = set(execution.cell_of_robot.tolist()) | set(scenario.destinations.tolist())
+    execution.observe(blocked=[next(c for c in np.flatnonzero(~scenario.area.barriers).tolist() if c not in taken)])
+    execution.step()
+    execution.join(next(c for c in range(scenario.area.cell_count) if not execution.field.barriers.flat[c]
+                        and c not in execution.cell_of_robot and c not in scenario.destinations))  # fmt: skip
+    execution.leave(int(np.flatnonzero(execution.state_of_robot == GOING)[0]))
+    while not execution.is_over:
+        execution.step()
+    assert execution.guide.plans == 3 and execution.guide.failures == 0
+
+
+def test_without_a_plan_in_time_robots_go_on_step_by_step_without_a_gap():
+    scenario = crowd()
+    hurried, stepping = Execution(scenario, replan=True, budget=0.0), Execution(scenario)
+    while not stepping.is_over:
+        assert cells(hurried.step()) == cells(stepping.step())
+    assert hurried.is_over and hurried.guide.plans == 0 and 1 <= hurried.guide.failures < hurried.steps_done
+
+
+def test_where_many_are_late_nobody_keeps_to_a_plan():
+    scenario = crowd()
+    following, stepping = Execution(scenario, replan=True), Execution(scenario)
+    late = list(range(0, 60, 2))
+    following.step(late), stepping.step(late)
+    for _ in range(3):
+        assert cells(following.step(late)) == cells(stepping.step(late))
+    assert following.guide.plans == 0
+    while not following.is_over:
+        following.step()
+    assert following.guide.plans == 1

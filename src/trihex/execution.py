@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -10,7 +11,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from trihex.area import cells_from
 from trihex.errors import ExecutionError, check_choice
+from trihex.guide import Guide
 from trihex.living import NOT_REACHED, LivingField, Repair
+from trihex.planners import PLANNERS
+from trihex.record import read_only
 from trihex.run import ARRIVED, BROKEN, GOING, LATE, LEFT, WAIT
 from trihex.scenario import Scenario
 from trihex.schemes import NScheme, make_n_scheme
@@ -49,11 +53,18 @@ class Execution:
     ----------
     scenario : Scenario
         The world as known at the beginning, with the robots and the rules.
-    planner : {"fcost", "greedy"}
-        By the least Fcost of the paper, or down the distance. Whoever of the robots that can act is nearest to a
-        destination always comes nearer, so in a world that changes no more all arrive that can.
+    planner : str
+        "fcost" or "greedy": by the least Fcost of the paper, or down the distance. Whoever of the robots that can act
+        is nearest to a destination always comes nearer, so in a world that changes no more all arrive that can. Any
+        other planner makes plans, as under `replan`.
     aside : {"always", "worth", "never"}
         For "fcost": when a robot that had better wait steps to a cell no farther than its own.
+    replan : bool
+        Whether to make a plan whenever the world has changed, and to keep to its order (see `trihex.passing`). While
+        there is none in time, or more than 2 % of the robots are late, they go on step by step, "greedy" if that is the
+        planner, else by "fcost".
+    budget : float, optional
+        Seconds that a plan may take; the moves then depend on the speed of the machine. Default: as long as it takes.
     n_scheme : NScheme, optional
         That of the scenario, if it is at hand.
 
@@ -76,9 +87,17 @@ class Execution:
     """
 
     def __init__(
-        self, scenario: Scenario, planner: str = "fcost", *, aside: str = "always", n_scheme: NScheme | None = None
+        self,
+        scenario: Scenario,
+        planner: str = "fcost",
+        *,
+        aside: str = "always",
+        replan: bool = False,
+        budget: float | None = None,
+        n_scheme: NScheme | None = None,
     ) -> None:
-        check_choice("planner of an execution", planner, STEPPERS, ExecutionError)
+        check_choice("planner of an execution", planner, dict.fromkeys((*STEPPERS, *PLANNERS)), ExecutionError)
+        self.guide = Guide(planner, budget) if replan or planner not in STEPPERS else None
         check_choice("aside", aside, ASIDE, ExecutionError)
         n_scheme = make_n_scheme(scenario) if n_scheme is None else n_scheme
         self.scenario, self.planner, self.aside = scenario, planner, aside
@@ -153,6 +172,7 @@ class Execution:
         repair = self.field.change(blocked=blocked, freed=freed, opened=opened, closed=closed)
         if repair.sites.size:
             self._version += 1
+            self._forget_plan()
         self._arrive_on_the_spot()
         return repair
 
@@ -177,6 +197,7 @@ class Execution:
         if self._occupied[site[0]]:
             robot = int(np.flatnonzero((self._site == site[0]) & (self._state == GOING))[0])
             raise ExecutionError(f"a robot must join on an empty cell; robot {robot} stands at {where}")
+        self._forget_plan()
         self._site = np.append(self._site, site)
         self._came_from = np.append(self._came_from, np.int32(-1))
         self._state = np.append(self._state, np.uint8(GOING))
@@ -187,6 +208,7 @@ class Execution:
     def leave(self, robot: int) -> None:
         """Take a robot out of the area; raises ExecutionError if it is not on its way."""
         self.check_going(robot)
+        self._forget_plan()
         self._state[robot] = LEFT
         self._occupied[self._site[robot]] = 0
 
@@ -216,6 +238,7 @@ class Execution:
         others = self._site[np.setdiff1d(np.flatnonzero(self._state == GOING), robots)]
         if self.field.blocked[sites].any() or np.unique(np.append(sites, others)).size < sites.size + others.size:
             raise ExecutionError("robots must be on distinct free cells")
+        self._forget_plan()
         self._occupied[self._site[robots]] = 0
         self._site[robots], self._came_from[robots] = sites, -1
         self._occupied[sites] = 1
@@ -229,8 +252,13 @@ class Execution:
         late : numbers of robots, optional
             Who cannot move in this step; the others keep clear of them.
         """
-        acts = self._can_go()
-        acts[np.fromiter(late, dtype=np.int64)] = False
+        is_late = np.zeros(self._state.size, dtype=bool)
+        is_late[np.fromiter(late, dtype=np.int64)] = True
+        if self.guide is not None and not self.is_over:
+            planned = self.guide.step(self.steps_done + 1, self._world, is_late)
+            if planned is not None:
+                return self._follow(*planned)
+        acts = self._can_go() & ~is_late
         going = np.flatnonzero(acts).astype(np.int32)
         order = going[np.argsort(self.field.distance_of_site[self._site[going]], kind="stable")]
         action = np.full(self._state.size, WAIT, dtype=np.uint8)
@@ -246,6 +274,34 @@ class Execution:
 
         For who records what robots did and wants to go on from there.
         """
+        self._forget_plan()
+        self._take(action_of_robot)
+
+    def _forget_plan(self) -> None:
+        if self.guide is not None:
+            self.guide.forget()
+
+    def _follow(self, robots: NDArray[np.int64], actions: NDArray[np.uint8]) -> Orders:
+        action = np.full(self._state.size, WAIT, dtype=np.uint8)
+        action[robots] = actions
+        there = self._state == GOING
+        self._take(action)
+        cells = self.scenario.area.layout.site_to_cell(self._site)
+        return Orders(self.steps_done, action, np.where(there | (self._state == BROKEN), cells, -1))
+
+    def _world(self) -> tuple[NScheme, NDArray[np.int64]]:
+        """Return the N-scheme of the world as known with the robots where they are, and their numbers."""
+        robots, field, area = np.flatnonzero(self._state == GOING), self.field, self.scenario.area
+        scenario = replace(
+            self.scenario,
+            area=replace(area, barriers=field.barriers),
+            destinations=np.array(sorted(field.destinations), dtype=np.int64),
+            robots=area.layout.site_to_cell(self._site[robots]),
+        )
+        object.__setattr__(scenario, "moves", read_only(field.moves.copy()))  # the cached property, known already
+        return NScheme(scenario, read_only(field.distance_of_site.copy())), robots
+
+    def _take(self, action_of_robot: NDArray[np.uint8]) -> None:
         layout, movers = self.scenario.area.layout, np.flatnonzero(action_of_robot < LATE)
         site = self._site[movers]
         self._occupied[site] = 0
@@ -266,7 +322,7 @@ class Execution:
         table = (field.distance_of_site, field.moves, layout.offset_of_direction, cost)
         forest = (self._version, self._seen, self._branch, self._steps)
         slot_of_line, line, lines = np.zeros(1, dtype=np.int64), np.zeros(1, dtype=np.int64), 0
-        if self.planner == "fcost":
+        if self.planner != "greedy":
             slots = np.empty(order.size, dtype=np.int64)
             kernels.find_slots(self._site[order], *table, *forest, slots)
             slots.sort()
@@ -274,7 +330,7 @@ class Execution:
             lines = kernels.line_up(slots, slot_of_line, line)
         forbids = scenario.crossing == "forbid"
         rules = [
-            {"greedy": kernels.GREEDY, "fcost": kernels.FCOST}[self.planner],
+            kernels.GREEDY if self.planner == "greedy" else kernels.FCOST,
             ASIDE.index(self.aside),
             scenario.waiting_cost,
             tessellation.edge_count if forbids else tessellation.direction_count,
@@ -312,6 +368,7 @@ class Execution:
 
     def restore(self, state: Mapping[str, NDArray[Any]]) -> None:
         """Go back, or forward, to a `state` of an execution of the same scenario; the same moves follow."""
+        self._forget_plan()
         now, wanted = self.field.destinations, set(state["destinations"].tolist())
         self._state, self._site = np.empty(0, dtype=np.uint8), np.empty(0, dtype=np.int32)
         self._occupied[:] = 0

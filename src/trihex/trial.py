@@ -35,7 +35,7 @@ class Trial:
     ----------
     scenario : Scenario
         The world as it is at the beginning.
-    planner, aside : str
+    planner, aside, replan, budget
         As for `Execution`.
     sensor : Sensor or float, optional
         What each robot sees; all share what they know. Default: robots know the world, and its changes at once.
@@ -58,6 +58,8 @@ class Trial:
         planner: str = "fcost",
         *,
         aside: str = "always",
+        replan: bool = False,
+        budget: float | None = None,
         sensor: Sensor | float | None = None,
         events: Iterable[Event] = (),
         delay: float = 0.0,
@@ -69,7 +71,8 @@ class Trial:
             sensor = Sensor(scenario.area.tessellation, sensor)
         self.scenario, self.planner, self.sensor, self.delay, self.seed = scenario, planner, sensor, delay, seed
         self.area, self.layout = scenario.area, scenario.area.layout
-        self.execution = Execution(scenario if sensor is None else _unknown(scenario), planner, aside=aside)
+        known = scenario if sensor is None else _unknown(scenario)
+        self.execution = Execution(known, planner, aside=aside, replan=replan, budget=budget)
         self._barriers = scenario.area.barriers.copy()
         self._destinations = set(scenario.destinations.tolist())
         self._blocked = np.ones(self.layout.size, dtype=bool)
@@ -327,21 +330,15 @@ def _unknown(scenario: Scenario) -> Scenario:
     return replace(scenario, area=Area(area.tessellation, np.zeros_like(area.barriers), area.name, area.frame))
 
 
-def resume_trial(run: Run, events: Iterable[Event] = (), *, aside: str = "always") -> Trial:
+def resume_trial(run: Run, events: Iterable[Event] = (), **options: Any) -> Trial:
     """Return a trial that stands where `run` ended, to go on as if it had never stopped.
 
-    What happened is done again, without asking the planner; `events` are those still to come.
+    What happened is done again, without asking the planner; `events` are those still to come, `options` those of the
+    trial: aside, replan and budget. (Robots that follow plans make a new one, and may then go on in another way.)
     """
     past = [occurrence.event for occurrence in run.occurrences]
-    trial = Trial(
-        run.scenario,
-        run.planner,
-        aside=aside,
-        sensor=run.sensor,
-        events=[*past, *events],
-        delay=run.delay,
-        seed=run.seed,
-    )
+    options |= {"sensor": run.sensor, "delay": run.delay, "seed": run.seed}
+    trial = Trial(run.scenario, run.planner, events=[*past, *events], **options)
     while trial.steps_done < run.steps:
         trial.step(run.actions[trial.steps_done])
     return trial

@@ -11,7 +11,7 @@ from trihex.cli.group import DONE, NO
 from trihex.cli.options import PATH, area_options, complete, read_described, robot_options, rule_options, wrong_use
 from trihex.cli.outputs import check_outputs
 from trihex.cli.progress import bar
-from trihex.cli.types import Amount, Name, Share, Whole
+from trihex.cli.types import Amount, Metres, Name, Share, Whole
 
 
 @click.command("run")
@@ -19,7 +19,9 @@ from trihex.cli.types import Amount, Name, Share, Whole
 @area_options
 @rule_options
 @robot_options
-@click.option("--planner", type=Name("trihex.execution", "STEPPERS"), help="Who decides in each step. [default: fcost]")
+@click.option("--planner", type=Name("trihex.planners", "PLANNERS"), help="Who decides or plans. [default: fcost]")
+@click.option("--replan", is_flag=True, help="Plan whenever the world changes, in place of deciding step by step.")
+@click.option("--budget", type=Metres(), metavar="SECONDS", help="With --replan: what a plan may take. [default: any]")
 @click.option("--sense", type=Amount("cells", 100), help="Robots know only what one of them saw, so many cells around.")
 @click.option("--line-of-sight", is_flag=True, help="With --sense: barriers hide what lies behind them.")
 @click.option("--events", type=PATH, metavar="FILE", help="What happens at which step, as .csv or .toml.")
@@ -34,6 +36,8 @@ from trihex.cli.types import Amount, Name, Share, Whole
 def command(
     area: Path | None,
     planner: str | None,
+    replan: bool,
+    budget: float | None,
     sense: float | None,
     line_of_sight: bool,
     events: Path | None,
@@ -76,9 +80,11 @@ def command(
         run, reference = _followed(plan, delays or 0.0, options["seed"] or 0, max_steps)
     else:
         if resume is not None:
-            trial = _resumed(resume, happening, delays)
+            trial = _resumed(resume, happening, delays, replan=replan, budget=budget)
         elif area is not None:
-            trial = _begun(area, planner, sense, line_of_sight, happening, delays, options)
+            trial = _begun(
+                area, planner, sense, line_of_sight, happening, delays, options, replan=replan, budget=budget
+            )
         else:
             raise wrong_use("there is no AREA: name one, or add --plan PLAN or --resume RUN")
         with bar("running", "robots") as progress:
@@ -111,17 +117,17 @@ def _begun(
     events: Any,
     delays: float | None,
     options: dict[str, Any],
+    **plans: Any,
 ) -> Any:
-    from trihex.execution import STEPPERS
     from trihex.sensing import Sensor
     from trihex.trial import Trial
 
     draft = read_described(area, options)
     scenario = complete(draft)
-    planner = planner or (draft.planner if draft.planner in STEPPERS else "fcost")
+    planner = planner or draft.planner or "fcost"
     sensor = None if sense is None else Sensor(scenario.area.tessellation, sense, line_of_sight)
     seed = scenario.seed or 0
-    return Trial(scenario, planner, sensor=sensor, events=events, delay=delays or 0.0, seed=seed)
+    return Trial(scenario, planner, sensor=sensor, events=events, delay=delays or 0.0, seed=seed, **plans)
 
 
 def _followed(path: Path, delay: float, seed: int, most_steps: int) -> tuple[Any, Any]:
@@ -133,7 +139,7 @@ def _followed(path: Path, delay: float, seed: int, most_steps: int) -> tuple[Any
     return make_passing_order(plan).run(delay=delay, seed=seed, most_steps=most_steps), plan
 
 
-def _resumed(path: Path, events: Any, delays: float | None) -> Any:
+def _resumed(path: Path, events: Any, delays: float | None, **plans: Any) -> Any:
     from trihex.formats.run_npz import read_run
     from trihex.trial import resume_trial
 
@@ -143,7 +149,7 @@ def _resumed(path: Path, events: Any, delays: float | None) -> Any:
     late = [str(event) for event in events if event.step <= run.steps]
     if late:
         raise wrong_use(f"{path} is past step {run.steps}, so what happens must come later, not {late[0]}")
-    return resume_trial(run, events)
+    return resume_trial(run, events, **plans)
 
 
 def _draw(run: Any, picture: Path | None, animation: Path | None) -> None:
