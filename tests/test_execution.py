@@ -279,3 +279,15 @@ def test_where_many_are_late_nobody_keeps_to_a_plan():
     while not following.is_over:
         following.step()
     assert following.guide.plans == 1
+
+
+def test_the_optimum_is_followed_and_found_again_where_the_world_changes():
+    scenario = crowd()
+    scenario = scenario.with_robots(scenario.robots[:25])
+    least = th.make_plan(scenario, "optimal").total_time
+    run = th.Trial(scenario, "optimal").run()
+    assert run.total_time == least < th.Trial(scenario, "fcost").run().total_time
+    unknowing = th.Trial(scenario, "optimal", sensor=1)
+    run = unknowing.run()
+    assert run.arrived.all() and run.total_time >= least and unknowing.execution.guide.plans > 1
+    assert th.audit_run(run).is_clean
