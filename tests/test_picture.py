@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 from PIL import Image
 
+import trihex as th
 from trihex import palette
 from trihex.area import Area
 from trihex.errors import FormatError, TooLargeError
+from trihex.ground import Ground
 from trihex.picture import (
     picture_of_area,
     picture_of_d_scheme,
@@ -367,3 +369,32 @@ def test_colours_of_things_are_told_apart_by_all_eyes(sight):
 def test_ramps_grow_darker_all_the_way(ramp, sight):
     lightness = [lab_seen(colour, sight)[0] for colour in ramp(40)]
     assert (np.diff(lightness) < -0.4).all()
+
+
+@pytest.mark.parametrize("tessellation", ["triangular", "hexagonal", "square"])
+def test_a_place_in_a_large_nowhere_is_cropped_and_shows_the_same(tessellation):
+    barriers = np.ones((40, 50), dtype=bool)
+    barriers[9:20, 13:30] = th.make_random_area(tessellation, 11, 17, density=0.1, seed=2).barriers
+    area = th.Area(tessellation, barriers, "yard")
+    free = np.flatnonzero(~area.barriers)
+    plan = th.make_plan(th.Scenario(area, free[:1], th.random_robots(area, 40, 3, avoid=free[:1])), "greedy")
+    ground = Ground(np.random.default_rng(1).random((160, 200)) < 0.3, 0.5)
+    part = th.picture_of_plan(plan, title="", legend=False, ground=ground, crop=True).scene
+    left, top = 10, 6  # two cells beside what is free, and even
+    assert part.colour_of_cell.shape == (20 + 2 - top, 30 + 2 - left)
+    whole = th.picture_of_plan(plan, title="", legend=False, ground=ground).scene
+    corner, shifted = (np.array(area.tessellation.centre_of_cell(*cell)) for cell in ((0, 0), (left, top)))
+    y, x = np.mgrid[: part.area.height, : part.area.width]
+    px, py = area.tessellation.centre_of_cell(x, y)
+    dx, dy = shifted - corner
+    np.testing.assert_allclose([px + dx, py + dy], area.tessellation.centre_of_cell(x + left, y + top))
+    np.testing.assert_array_equal(
+        part.colours[part.colour_of_cell], whole.colours[whole.colour_of_cell][y + top, x + left]
+    )
+    np.testing.assert_array_equal(part.ground.occupied_at(px, py), ground.occupied_at(px + dx, py + dy))
+    discs = ([m for m in scene.marks if isinstance(m, Discs) and m.x.size == 40] for scene in (part, whole))
+    for one, other in zip(*discs, strict=True):
+        np.testing.assert_allclose([one.x + dx, one.y + dy], [other.x, other.y])
+    assert "of 50 x 40" in th.picture_of_plan(plan, crop=True).scene.subtitle
+    full = th.make_plan(th.Scenario(th.Area(tessellation, np.zeros((9, 9))), [(0, 0)], [(5, 5)]), "greedy")
+    assert th.picture_of_plan(full, crop=True).to_svg() == th.picture_of_plan(full).to_svg()

@@ -220,6 +220,7 @@ def picture_of_plan(
     legend: bool = True,
     paths: bool | None = None,
     ground: Ground | None = None,
+    crop: bool = False,
 ) -> Picture:
     """Return the picture of a plan: the paths of its robots, or how often each cell is visited.
 
@@ -230,7 +231,12 @@ def picture_of_plan(
         As for `picture_of_area`.
     paths : bool, optional
         Whether to draw a line for each robot, not the visits. Default: if there are 26 at most and cells are large.
+    crop : bool
+        Whether to show only the part of the area that holds free cells, if that is less than half of it.
     """
+    whole = plan.scenario.area
+    if crop:
+        plan, ground = _cropped(plan, ground)
     scenario, area = plan.scenario, plan.scenario.area
     scale = scale_for(area, width)
     if paths is None:
@@ -261,8 +267,37 @@ def picture_of_plan(
     colours = np.vstack([shades, colour_rows([FREE, _barrier_colour(ground), DESTINATION])])
     bold = (*range(first), first + 1, first + 2)
     scene = Scene(area, cells, colours, scale, bold, tuple(marks), tuple(keys), ground=ground)
-    more = f", {arrived.size} of {scenario.robot_count} robots arrive, {plan.steps} steps, total time {plan.total_time}"
+    part = "" if area is whole else f" of {whole.width} x {whole.height}"
+    more = f"{part}, {arrived.size} of {scenario.robot_count} robots arrive"
+    more += f", {plan.steps} steps, total time {plan.total_time}"
     return _titled(scene, title, f"Plan ({plan.planner})" if plan.planner else "Plan", more, legend)
+
+
+def _cropped(plan: Plan, ground: Ground | None) -> tuple[Plan, Ground | None]:
+    """Return the plan and the ground on the box around all free cells, two cells wider, if it is less than half."""
+    scenario, area = plan.scenario, plan.scenario.area
+    rows, columns = (np.flatnonzero(~area.barriers.all(axis=axis)) for axis in (1, 0))
+    if plan.jumps.size or rows.size == 0:
+        return plan, ground
+    # Even steps leave the orientation of cells as it is.
+    top, left = (max(0, (int(first[0]) - 2) // 2 * 2) for first in (rows, columns))
+    barriers = area.barriers[top : rows[-1] + 3, left : columns[-1] + 3]
+    if 2 * barriers.size > area.cell_count:
+        return plan, ground
+    x, y = (
+        float(end - start)
+        for end, start in zip(
+            area.tessellation.centre_of_cell(left, top), area.tessellation.centre_of_cell(0, 0), strict=True
+        )
+    )
+    part = Area(area.tessellation, barriers, area.name)
+    destinations, robots = (
+        np.stack(area.cell_to_xy(cells), axis=-1) - (left, top) for cells in (scenario.destinations, scenario.robots)
+    )
+    moved = Scenario(part, destinations, robots, waiting_cost=scenario.waiting_cost)
+    if ground is not None:
+        ground = replace(ground, corner=(ground.corner[0] + x, ground.corner[1] + y))
+    return Plan(moved, plan.actions, plan.first_action, plan.planner, plan.optimal), ground
 
 
 def _area_of(record: Area | Scenario) -> Area:

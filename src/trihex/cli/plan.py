@@ -73,7 +73,7 @@ def command(
     if "picture" in outputs:
         from trihex.picture import picture_of_plan
 
-        picture_of_plan(report.plan, ground=draft.ground).save(outputs["picture"])
+        picture_of_plan(report.plan, ground=draft.ground, crop=draft.ground is not None).save(outputs["picture"])
     if "waypoints" in outputs:
         write_waypoints(report.plan, outputs["waypoints"], speed=outputs.get("speed", 1.0))
     if write_scenario:
