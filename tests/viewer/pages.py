@@ -22,7 +22,7 @@ class Shown:
 
     def wait(self, condition):
         """Wait until a condition on `app` holds."""
-        self.page.wait_for_function(f"() => {{ const app = {APP}; return app && ({condition}) }}", timeout=60000)
+        self.page.wait_for_function(f"() => {{ const app = {APP}; return app && ({condition}) }}", timeout=180000)
 
     def ask(self, expression):
         return self.page.evaluate(f"() => {{ const app = {APP}; return {expression} }}")

@@ -151,14 +151,18 @@ def test_the_story(open_viewer, tmp_path, tessellation):
     assert f"{report.arrived_count} arrived" in shown.text(".sets")
     assert f"{grouped(plan.total_time)} spent, {grouped(plan.total_time)} at least in the end" in shown.text(".sofar")
 
-    # compare with another planner, and with what no plan can beat
-    page.get_by_label("Planner beside it").select_option("greedy")
+    # compare with the optimum
+    page.get_by_label("Planner beside it").select_option("optimal")
     shown.press("Compare")
-    beside, bound = make_plan(scenario, "greedy"), th.make_lower_bound(th.make_n_scheme(scenario)).value
-    shown.wait(f"app.runs[1] && !app.job && app.runs.every(run => run.summary.lower_bound === {bound})")
+    shown.wait("app.runs[1] && !app.job && app.runs[0].summary.lower_bound_name === 'optimum'")
+    beside = make_plan(scenario, "optimal")
+    optimum = beside.total_time
     table = shown.table()
-    assert table["Total time"] == [grouped(plan.total_time), grouped(beside.total_time)]
-    assert all(cell.startswith(grouped(bound)) for cell in table["Lower bound"])
+    assert table["Total time"] == [grouped(plan.total_time), grouped(optimum)]
+    assert table["Lower bound"] == [f"{grouped(optimum)} (optimum)"] * 2
+    gap = 100 * (plan.total_time / optimum - 1)
+    assert table["Gap to the optimum"] == [f"{gap:.{2 if gap < 10 else 1}f} %", "0, proven"]
+    assert "proven optimal" in page.locator(".caption").nth(1).inner_text()
     show_step(shown, 5)
     shown.keep(f"story-{tessellation}-compare")
     for pane, planner in ((0, plan), (1, beside)):
