@@ -14,13 +14,14 @@ else
   INSTALL = $(BIN)/python -m pip install --quiet --disable-pip-version-check
 endif
 
-.PHONY: help demo test lint bench docs figures golden clean
+.PHONY: help demo test lint bench docs figures studies golden clean
 help:
 	@echo "make demo    plan with every planner on three tessellations; a table, a picture and an animation in demo/"
 	@echo "make test    all tests"
 	@echo "make lint    ruff, mypy and import-linter"
 	@echo "make bench   speed, as ratios against other libraries"
 	@echo "make docs    the documentation in build/docs; make figures draws its pictures anew"
+	@echo "make studies the pages of the studies from their tables of results"
 	@echo "make clean   remove the environment and all caches"
 
 # What a user needs, and beyond it what a developer needs: the demo waits only for the former.
@@ -60,6 +61,9 @@ docs: $(VENV)/.docs
 figures: $(VENV)/.docs $(VENV)/.dev
 	$(BIN)/python -m examples
 	$(BIN)/python -m tests.viewer.picture
+
+studies: $(VENV)/.docs
+	$(BIN)/python -m examples.studies
 
 clean:
 	rm -rf $(VENV) demo build dist .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache

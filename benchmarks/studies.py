@@ -13,7 +13,9 @@ import tempfile
 import time
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import psutil
 
@@ -38,50 +40,60 @@ def cpu_seconds() -> float:
 
 
 def work_in(path: Path) -> float:
-    """Return the CPU time that the runs of a table report."""
+    """Return the CPU time that the runs of a table report; what planners of one scenario share is counted once."""
+    seen, total = set(), 0.0
     with open(path, newline="", encoding="utf-8") as file:
-        rows = csv.DictReader(file)
-        return sum(float(value) for row in rows for name, value in row.items() if name.startswith("seconds") and value)
-
-
-def tell(name: str, table: Path, cpu: float, own: float, reference: bytes) -> None:
-    """Print what a way of working cost beside the work, and whether its table is that of the others."""
-    work, runs = work_in(table), reference.count(b"\n")
-    same = "same table" if without_seconds(table) == reference else "ANOTHER TABLE"
-    beside, asking = 1000 * (cpu - work) / runs, 1000 * own / runs
-    print(f"{name:34} {work:6.1f} {cpu:6.1f} {beside:10.2f} {asking:10.2f}   {same}", flush=True)
+        for row in csv.DictReader(file):
+            names = ["plan", "audit"] if row["scenario"] in seen else ["area", "field", "bound", "plan", "audit"]
+            total += sum(float(row[f"seconds_{name}"]) for name in names)
+            seen.add(row["scenario"])
+    return total
 
 
 def compare_executors(folder: Path) -> bytes:
     """Print a line for each way of working, and return the table they agree on."""
     study = th.read_study(STUDY)
-    print(f"{len(study)} runs; CPU seconds; ms of CPU a run beside its work: in all, of the one that asks")
-    print(f"{'':34} {'work':>6} {'all':>6} {'all':>10} {'asking':>10}")
-    table, reference = folder / "pool.csv", b""
-    for jobs in (1, 2):
-        begin, own = cpu_seconds(), time.process_time()
-        th.write_study(study, table, jobs=jobs)
+    few = replace(study, trials=study.trials[:100])
+    th.write_study(few, folder / "few.csv", jobs=1)  # loads what the one that asks needs
+    print(f"{len(study)} runs; CPU: their own work, start of the workers, and for each further run beside its work")
+    print(f"{'':34} {'work':>7} {'start':>7} {'in all':>10} {'asking':>10}")
+    reference = b""
+
+    def measure(name: str, executor: Any, clock: Callable[[], float], jobs: int = 1) -> None:
+        nonlocal reference
+        beside, asking = [], []
+        if executor is not None:  # its workers stay, so they start before they are measured
+            th.write_study(few, folder / "few.csv", executor=executor)
+        for some in (few, study):
+            table, begin, own = folder / "table.csv", clock(), time.process_time()
+            th.write_study(some, table, executor=executor, jobs=jobs)
+            beside.append(clock() - begin - work_in(table))
+            asking.append(time.process_time() - own)
         reference = reference or without_seconds(table)
-        tell(f"processes of its own, {jobs}", table, cpu_seconds() - begin, time.process_time() - own, reference)
-    begin, own = cpu_seconds(), time.process_time()
+        same = "same table" if without_seconds(table) == reference else "ANOTHER TABLE"
+        more = len(study) - len(few)
+        each, own_each = (1000 * (values[1] - values[0]) / more for values in (beside, asking))
+        start = beside[0] - each * len(few) / 1000
+        print(
+            f"{name:34} {work_in(table):5.1f} s {start:5.1f} s {each:7.2f} ms {own_each:7.2f} ms   {same}", flush=True
+        )
+
+    measure("1 process of its own", None, cpu_seconds, 1)
+    measure("2 processes of its own", None, cpu_seconds, 2)
     with ProcessPoolExecutor(2) as pool:
-        th.write_study(study, folder / "futures.csv", executor=pool)
-    asking = time.process_time() - own
-    tell("concurrent.futures, 2 processes", folder / "futures.csv", cpu_seconds() - begin, asking, reference)
+        pool.submit(int).result()
+        measure("concurrent.futures, 2 processes", pool, cpu_of_all)
     with dask_cluster() as cluster:
         from trihex.studies.cluster import connected
 
         with connected(cluster.scheduler_address) as workers:
-            processes = [psutil.Process(), *psutil.Process().children(recursive=True)]
-            begin, own = all_of(processes), time.process_time()
-            th.write_study(study, folder / "dask.csv", executor=workers)
-            asking = time.process_time() - own
-            tell("Dask, 2 processes", folder / "dask.csv", all_of(processes) - begin, asking, reference)
+            measure("Dask, 2 processes", workers, cpu_of_all)
     return reference
 
 
-def all_of(processes: list[psutil.Process]) -> float:
-    """Return the CPU time of processes that run."""
+def cpu_of_all() -> float:
+    """Return the CPU time of this process and of its children that live."""
+    processes = [psutil.Process(), *psutil.Process().children(recursive=True)]
     return sum(sum(process.cpu_times()[:2]) for process in processes)
 
 

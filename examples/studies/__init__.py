@@ -1,0 +1,1 @@
+"""Studies whose results answer a question: a grid, its table and the page made from it."""

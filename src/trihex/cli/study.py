@@ -81,7 +81,7 @@ def _progress() -> Iterator[Callable[[int, int], None]]:
             shown = tqdm(total=total, initial=done, unit=" runs", disable=None, delay=1, leave=False, smoothing=0)
         shown.update(done - shown.n)
         now = monotonic()
-        if not sys.stderr.isatty() and now - last >= _SECONDS_BETWEEN_LINES and done > first:
+        if not sys.stderr.isatty() and now - last >= _SECONDS_BETWEEN_LINES and first < done < total:
             left = (now - begin) / (done - first) * (total - done)
             click.echo(f"trihex: {done} of {total} runs, about {_told(left)} left", err=True)
             last = now

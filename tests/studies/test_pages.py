@@ -1,0 +1,128 @@
+"""Pages of the studies: they say what the tables of results say, and these are of the studies beside them."""
+
+import csv
+import math
+import re
+import sys
+from collections import defaultdict
+from pathlib import Path
+
+import pytest
+
+import trihex as th
+from trihex.studies.trial import COLUMNS
+
+ROOT = Path(__file__).parents[2]
+NAMES = ("tessellations", "planner")
+
+
+@pytest.fixture(autouse=True)
+def _in_repository(monkeypatch):
+    monkeypatch.syspath_prepend(str(ROOT))
+
+
+def rows_of(name):
+    with open(ROOT / "examples" / "studies" / f"{name}.csv", newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def text_of(name):
+    return (ROOT / "docs" / "studies" / f"{name}.md").read_text(encoding="utf-8")
+
+
+def table_after(text, words):
+    """Return the rows of the first table behind some words, as lists of cells."""
+    lines = text.partition(words)[2].splitlines()
+    first = next(i for i, line in enumerate(lines) if line.startswith("|"))
+    last = next(i for i, line in enumerate(lines) if i > first and not line.startswith("|"))
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[first:last]]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_page_is_what_its_results_make_it(name):
+    from examples.studies.__main__ import PAGES
+
+    assert text_of(name) == PAGES[name].page(), "make studies"
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_results_are_those_of_the_study_beside_them(name):
+    study = th.read_study(ROOT / "examples" / "studies" / f"{name}.toml")
+    rows = rows_of(name)
+    assert [int(row["run"]) for row in rows] == list(range(len(study)))
+    assert list(rows[0]) == list(COLUMNS)
+    for row, trial in zip(rows, study.trials, strict=True):
+        planned = (trial["planner"]["name"], trial["tessellation"]["name"], str(trial["seed"]))
+        assert (row["planner"], row["tessellation"], row["seed"]) == planned
+        assert row["conflicts"] == "0" and row["error"] == "" and row["robots"] == row["arrived"]
+
+
+def means(rows, value):
+    """Return mean and half a 95 % interval of the means of the seeds, written anew."""
+    by_seed = defaultdict(list)
+    for row in rows:
+        by_seed[row["seed"]].append(value(row))
+    found = [sum(values) / len(values) for values in by_seed.values()]
+    mean = sum(found) / len(found)
+    variance = sum((one - mean) ** 2 for one in found) / (len(found) - 1)
+    student = {4: 3.182446, 10: 2.262157}[len(found)]
+    return mean, student * math.sqrt(variance / len(found))
+
+
+def test_the_lengths_in_the_page_of_the_tessellations_are_those_of_the_results():
+    rows, table = rows_of("tessellations"), table_after(text_of("tessellations"), "## Lengths")
+    assert table[0] == ["cells", "open", "obstacles", "rooms", "doors"] and len(table) == 7
+    kinds = [
+        ("triangular", "full"),
+        ("triangular", "edge"),
+        ("hexagonal", "full"),
+        ("square", "full"),
+        ("square", "edge"),
+    ]
+    for kind, line in zip(kinds, table[2:], strict=True):
+        for ground, cell in zip(table[0][1:], line[1:], strict=True):
+            some = [
+                row for row in rows
+                if (row["tessellation"], row["neighbourhood"]) == kind and row["area"] == ground
+                and row["costs"] == "euclidean" and row["robots"] == "20" and row["planner"] == "fcost"
+            ]  # fmt: skip
+            assert len(some) == 10
+            mean, half = means(some, lambda row: float(row["path_length"]) / float(row["straight_length"]))
+            told = [float(part) for part in cell.split(" ± ")]
+            assert told == pytest.approx([mean, half], abs=6e-4)
+
+
+def test_the_queues_in_the_page_of_the_planner_are_those_of_the_results():
+    rows, table = rows_of("planner"), table_after(text_of("planner"), "## Do queues get shorter?")
+    for cells, exits, robots, greedy, _, aside, *_ in table[2:]:
+        for planner, options, cell in (("greedy", "{}", greedy), ("fcost", '{"rule":"aside"}', aside)):
+            some = [
+                row for row in rows
+                if (row["tessellation"], row["robots"], row["planner"]) == (cells, robots, planner)
+                and row["planner_options"] == options and row["waiting_cost"] == "10"
+                and re.search(r'"count":(\d+)', row["destinations"])[1] == exits
+            ]  # fmt: skip
+            mean, half = means(some, lambda row: float(row["most_waiting"]))
+            assert [float(part) for part in cell.split(" ± ")] == pytest.approx([mean, half], abs=0.51)
+    assert len(table) == 2 + 12
+
+
+def test_the_example_is_the_one_that_is_explained_and_runs(tmp_path):
+    text = (ROOT / "examples" / "study.toml").read_text()
+    page = (ROOT / "docs" / "how-to" / "studies.md").read_text()
+    assert "\n".join(line for line in text.splitlines() if not line.startswith("#")) in page
+    study = th.read_study(ROOT / "examples" / "study.toml")
+    assert len(study) == 120
+    (tmp_path / "study.toml").write_text("sample = 6\n" + text)
+    assert [row["error"] for row in th.run_study(tmp_path / "study.toml")] == [None] * 6
+
+
+def test_pages_and_pictures_are_written_by_one_command(tmp_path, monkeypatch, capsys):
+    from examples.studies import __main__ as command
+
+    monkeypatch.setattr(sys, "argv", ["studies"])
+    command.main(tmp_path)
+    for name in NAMES:
+        assert (tmp_path / "studies" / f"{name}.md").read_text(encoding="utf-8") == text_of(name)
+        assert (tmp_path / "figures" / f"study_{name}.png").stat().st_size > 10_000
+    assert capsys.readouterr().out.count("\n") == 2
