@@ -15,8 +15,8 @@ from trihex.run import GOING, Run
 from trihex.scene import Key, Mark, Ramp, Scene, scale_for
 
 # What no robot has seen is drawn under fog, free cells and barriers each in a shade of it.
-FOG: palette.Colour = (205, 212, 224)
-FOG_BARRIER: palette.Colour = (150, 160, 178)
+FOG: palette.Colour = (190, 198, 214)
+FOG_BARRIER: palette.Colour = (134, 144, 164)
 _SHADES = 200
 
 
