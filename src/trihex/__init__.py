@@ -101,6 +101,8 @@ if TYPE_CHECKING:
     from trihex.studies.study import Study as Study
     from trihex.studies.study import read_study as read_study
     from trihex.tessellation import Tessellation as Tessellation
+    from trihex.tiled import TiledField as TiledField
+    from trihex.tiled import make_tiled_field as make_tiled_field
     from trihex.trial import Trial as Trial
     from trihex.trial import resume_trial as resume_trial
     from trihex.viewer.launch import open_viewer as open_viewer
@@ -145,6 +147,7 @@ _MODULE_OF_NAME = {
     "StudyError": "errors",
     "Tessellation": "tessellation",
     "TessellationError": "errors",
+    "TiledField": "tiled",
     "TooLargeError": "errors",
     "Trial": "trial",
     "TrihexError": "errors",
@@ -174,6 +177,7 @@ _MODULE_OF_NAME = {
     "make_report": "report",
     "make_rooms_area": "generators",
     "make_run_report": "run_report",
+    "make_tiled_field": "tiled",
     "make_warehouse_area": "generators",
     "make_widget": "viewer.widget",
     "open_viewer": "viewer.launch",
