@@ -36,7 +36,7 @@ def work(first: int, last: int, options: argparse.Namespace) -> None:
     resource.setrlimit(resource.RLIMIT_AS, (ADDRESS_SPACE, ADDRESS_SPACE))
     seeds = make_seeds()
     names = [name for name in TARGETS if options.only in name]
-    kept = {"house.pgm", "house.yaml"}
+    kept = {"house.pgm", "house.yaml", "yard.map"}
     for name in kept:
         (folder / name).write_bytes(seeds[name])
     for name in names:  # compile and import all that is needed, so that no damaged file is charged with it

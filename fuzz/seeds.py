@@ -9,7 +9,8 @@ from tempfile import TemporaryDirectory
 import numpy as np
 from PIL import Image
 
-from trihex import Area, Frame, Scenario, Tessellation, write_area, write_plan, write_scenario
+from trihex import Area, Frame, Scenario, Tessellation, Trial, write_area, write_plan, write_run, write_scenario
+from trihex.events import Event
 from trihex.formats.draft import draft_of
 from trihex.plan import plan_from_lists
 from trihex.viewer.bundle import encode
@@ -58,6 +59,20 @@ seed = 7
 [planner]
 name = "greedy"
 """
+EVENTS = [Event(2, "barrier", cell=(3, 2)), Event(3, "join", cell=(1, 2)), Event(4, "clear", cell=(3, 2))]
+STUDY = """robots = [3, 5]
+seeds = [1, 2]
+planners = ["greedy", "fcost"]
+tessellations = ["square", "triangular"]
+[[areas]]
+generator = "random"
+size = [8, 6]
+density = 0.1
+[[areas]]
+path = "yard.map"
+[limits]
+seconds = 5
+"""
 PLACE_TOML = """destinations_in_metres = [[0.98, 5.75]]
 [area]
 path = "house.yaml"
@@ -94,6 +109,9 @@ def make_seeds() -> dict[str, bytes]:
         "yard.scen": b"version 1\n0\tyard.map\t8\t4\t1\t0\t7\t0\t6.5\n1\tyard.map\t8\t4\t4\t2\t7\t0\t3.5\n",
         "letters.txt": b"a..B...D\n.B.b..B.\n....D...\n",
     }
+    seeds["events.csv"] = b"step,event,x,y\n2,barrier,3,2\n3,join,1,2\n4,clear,3,2\n"
+    seeds["events.toml"] = b'[[event]]\nstep = 2\nevent = "barrier"\ncell = [3, 2]\n'
+    seeds["study.toml"] = STUDY.encode()
     document, arrays = document_of(draft_of(scenario))
     seeds["request.bundle"] = encode({"op": "plan", "planner": "greedy", "options": {}, "document": document}, arrays)
     with TemporaryDirectory() as name:
@@ -102,6 +120,7 @@ def make_seeds() -> dict[str, bytes]:
         write_area(plain, folder / "yard.map")
         for suffix in ("csv", "npz", "parquet"):
             write_plan(plan, folder / f"plan.{suffix}")
+        write_run(Trial(scenario, events=EVENTS).run(), folder / "run.npz")
         write_scenario(scenario, folder / "yard.toml")
         for suffix in ("pgm", "png", "bmp", "gif", "jpeg"):
             house().save(folder / f"house.{suffix}")

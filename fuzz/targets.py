@@ -14,10 +14,24 @@ from zlib import crc32
 
 import numpy as np
 
-from trihex import Area, Frame, Scenario, TrihexError, audit_plan, read_plan, read_starts, write_area, write_plan
+from trihex import (
+    Area,
+    Frame,
+    Scenario,
+    TrihexError,
+    audit_plan,
+    read_plan,
+    read_run,
+    read_starts,
+    write_area,
+    write_plan,
+    write_run,
+)
 from trihex.formats import read_draft
 from trihex.formats.draft import Draft
+from trihex.formats.events import read_events
 from trihex.plan import Plan
+from trihex.studies.study import read_study
 from trihex.viewer.bundle import decode
 from trihex.viewer.desk import Desk
 
@@ -59,6 +73,27 @@ def read_a_plan(path: Path) -> None:
 def read_some_starts(path: Path) -> None:
     """Read where robots start."""
     read_starts(path, _YARD)
+
+
+def read_some_events(path: Path) -> None:
+    """Read what will happen."""
+    read_events(path)
+
+
+def read_a_run(path: Path) -> None:
+    """Read what happened, and write it again."""
+    run = read_run(path)
+    copy = path.with_name("copy.npz")
+    write_run(run, copy)
+    try:
+        assert read_run(copy) == run, "the copy is another run"
+    finally:
+        copy.unlink()
+
+
+def read_a_study(path: Path) -> None:
+    """Read what a study shall run."""
+    read_study(path)
 
 
 def answer_a_request(path: Path) -> None:
@@ -119,6 +154,10 @@ TARGETS: dict[str, Callable[[Path], None]] = {
     **{f"house.{suffix}": read_image for suffix in ("pgm", "png", "bmp", "gif", "jpeg")},
     "colours.png": read_image,
     "request.bundle": answer_a_request,
+    "events.csv": read_some_events,
+    "events.toml": read_some_events,
+    "run.npz": read_a_run,
+    "study.toml": read_a_study,
 }
 
 

@@ -18,7 +18,7 @@ def seeds():
 
 @pytest.fixture
 def folder(tmp_path, seeds):
-    for name in ("house.pgm", "house.yaml"):
+    for name in ("house.pgm", "house.yaml", "yard.map"):
         (tmp_path / name).write_bytes(seeds[name])
     return tmp_path
 

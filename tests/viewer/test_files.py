@@ -19,7 +19,8 @@ WISHES = {
     "house.yaml": METRES,
     "house.png": {"cell_size": 0.5, "resolution": 0.1, "invert": True, "threshold": 0.3},
 }
-NAMES = [name for name in make_seeds() if not name.endswith(".bundle")]
+OTHERS = {"request.bundle", "events.csv", "events.toml", "run.npz", "study.toml"}  # not for the viewer
+NAMES = [name for name in make_seeds() if name not in OTHERS]
 
 
 def yard():

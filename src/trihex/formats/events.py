@@ -74,7 +74,7 @@ def _from_toml(content: bytes, path: str | os.PathLike[str]) -> tuple[Event, ...
 
 
 def _from_csv(content: bytes, path: str | os.PathLike[str]) -> tuple[Event, ...]:
-    lines = check_text(content, path).decode().splitlines()
+    lines = check_text(content, path).decode().splitlines() or [""]
     header = [name.strip() for name in lines[0].split(",")]
     for name in header:
         check_choice(f"{path}: line 1: a column", name, COLUMNS, FormatError)

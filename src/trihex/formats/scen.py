@@ -23,7 +23,7 @@ def parse_scen(content: bytes, path: str | os.PathLike[str], area: Area) -> NDAr
     FormatError
         If a line is not of the form, or was made for an area of another size.
     """
-    lines = check_text(content, path).decode().splitlines()
+    lines = check_text(content, path).decode().splitlines() or [""]
     if lines[0].split()[:1] != ["version"]:
         raise FormatError(f"{path}: line 1: must be 'version 1', not {lines[0]!r:.60}")
     cells = np.empty(len(lines), dtype=np.int64)
