@@ -167,10 +167,10 @@ def answer_lines(rows: list[Row]) -> list[str]:
     ours = [grown["fcost, a robot and step", variable, "trihex"] for variable in ("n", "b")]
     fields = [grown[f"{field}-scheme, random area", "b", "trihex"] for field in ("N", "D")]
     return [
-        "Taken literally, the paper's planner grows as its section V states: comparisons in one step of all robots as",
-        f"n^{literal[0]:.2f} and b^{literal[1]:.2f}, those of K steps as K^{literal[2]:.2f}. With c looked up, the time",
-        f"of a robot's step grows as n^{ours[0]:.2f} and b^{ours[1]:.2f}, so not at all, that of the N-scheme as",
-        f"b^{fields[0]:.2f}, that of the D-scheme as b^{fields[1]:.2f}.",
+        "Taken literally, the paper's planner grows as its section V states: the comparisons of one step as",
+        f"n^{literal[0]:.2f} and b^{literal[1]:.2f}, those of K steps as K^{literal[2]:.2f}. With c looked up,",
+        f"the time of a robot's step grows as n^{ours[0]:.2f} and b^{ours[1]:.2f}, so not at all,",
+        f"that of the N-scheme as b^{fields[0]:.2f}, that of the D-scheme as b^{fields[1]:.2f}.",
     ]
 
 

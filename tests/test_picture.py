@@ -398,3 +398,10 @@ def test_a_place_in_a_large_nowhere_is_cropped_and_shows_the_same(tessellation):
     assert "of 50 x 40" in th.picture_of_plan(plan, crop=True).scene.subtitle
     full = th.make_plan(th.Scenario(th.Area(tessellation, np.zeros((9, 9))), [(0, 0)], [(5, 5)]), "greedy")
     assert th.picture_of_plan(full, crop=True).to_svg() == th.picture_of_plan(full).to_svg()
+
+
+def test_starts_are_left_out_where_they_would_hide_all_else():
+    area = th.Area("hexagonal", np.zeros((100, 100), dtype=bool))
+    crowd = th.make_plan(th.Scenario(area, [(50, 50)], th.random_robots(area, 3000, avoid=[(50, 50)])), "greedy")
+    shown = {width: "start" in str(th.picture_of_plan(crowd, width=width).scene.legend) for width in (100, 2000)}
+    assert shown == {100: False, 2000: True}

@@ -42,6 +42,13 @@ def robot_marks(scenario: Scenario, robots: NDArray[np.int64], colour: Colour, s
     return marks
 
 
+def leave_room(scenario: Scenario, scale: float) -> bool:
+    """Tell whether discs for all robots leave half of the picture free, or are no larger than cells."""
+    radius = max(ROBOT_RADIUS * scale, LEAST_ROBOT)
+    pixels = scenario.area.cell_count * scale * scale
+    return radius <= 0.5 * scale or 3.14 * radius * radius * scenario.robot_count <= 0.5 * pixels
+
+
 def number_marks(
     area: Area,
     numbers: NDArray[np.integer],

@@ -258,10 +258,11 @@ def picture_of_plan(
         most = max(1, int(visits[cells == first].max(initial=0)))
         is_shaded = (visits > 0) & (cells == first)
         cells[is_shaded] = np.rint(np.log(visits[is_shaded]) * ((_SHADES - 1) / max(np.log(most), 1e-9)))
-        marks += make.robot_marks(scenario, arrived, MOVING, scale) + make.robot_marks(
+        starts = arrived if make.leave_room(scenario, scale) else arrived[:0]
+        marks += make.robot_marks(scenario, starts, MOVING, scale) + make.robot_marks(
             scenario, stranded, STRANDED, scale
         )
-        keys += [Key("disc", MOVING, "start")] if arrived.size else []
+        keys += [Key("disc", MOVING, "start")] if starts.size else []
         keys += [Ramp(_samples(shades), "visits (log)", "1", str(most))] if is_shaded.any() else []
     keys += [Key("disc", STRANDED, "never arrives")] if stranded.size else []
     colours = np.vstack([shades, colour_rows([FREE, _barrier_colour(ground), DESTINATION])])
