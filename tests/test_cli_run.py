@@ -114,3 +114,15 @@ def test_a_plan_is_followed_in_its_order(folder):
     run("--plan", "plan.npz", "--delays", "0.3", "--seed", "1", "--out", "run.npz")
     assert th.read_run("run.npz").arrived.all() and th.read_run("run.npz").delay == 0.3
     assert "--sense cannot be told" in run("--plan", "plan.npz", "--sense", "2", status=2).stderr
+
+
+def test_a_movie_shows_destinations_as_they_are_in_each_step(folder):
+    area = th.Area("square", np.zeros((3, 12), dtype=bool))
+    events = [th.Event(2, "close", cell=(0, 1)), th.Event(3, "open", cell=(11, 0)), th.Event(3, "barrier", cell=(1, 1))]
+    record = th.Trial(th.Scenario(area, [(0, 1)], [(6, 1)]), events=events).run()
+    film = RunFilm(record, record.steps + 1, 120, "")
+    green = np.array([0, 158, 115])
+    x, y = film.sheet.body
+    places = [np.argwhere((frame[y : y + 30, x : x + 120] == green).all(axis=-1)) for frame in film.frames()]
+    columns = [sorted(set((found[:, 1] // 10).tolist())) for found in places]
+    assert columns[:2] == [[0], [0]] and columns[2] == [] and columns[3:] == [[11]] * len(columns[3:])

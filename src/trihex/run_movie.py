@@ -16,11 +16,11 @@ from trihex.formats.files import new_file, suffix_of
 from trihex.gif import GifWriter
 from trihex.movie import SUFFIXES, Progress, check_range
 from trihex.mp4 import Mp4Writer, import_av
-from trihex.palette import MOVING, SERIES, STRANDED, WAITING, Colour
+from trihex.palette import DESTINATION, MOVING, PAGE, SERIES, STRANDED, WAITING, Colour
 from trihex.png import paint, paint_disc_marks, paint_discs, write_words
 from trihex.run import BROKEN, GOING, LATE, WAIT, Run
 from trihex.run_picture import CLASS_COLOURS, class_keys, classes_of, run_title
-from trihex.scene import Key, Scene, centres_of, scale_for
+from trihex.scene import Discs, Key, Mark, Scene, centres_of, scale_for
 from trihex.sheet import MARGIN, TEXT_SIZE, Sheet, Words, arrange, width_of
 
 LATE_COLOUR = SERIES[1]
@@ -178,10 +178,11 @@ class RunFilm:
             to_x, to_y = centres_of(area, np.where(later >= 0, later, np.where(cells >= 0, self._last_cells, at)))
             x, y = x + share * (to_x - x), y + share * (to_y - y)
         frame = background.copy()
-        marks = make.destination_marks(replace(run.scenario, robots=run.robots[:0]), scale, letters=False)
-        if destinations.size and not np.array_equal(np.sort(destinations), np.sort(run.scenario.destinations)):
-            marks = []  # they have moved: their cells are coloured, which must do
-        paint_disc_marks(frame, replace(self.scene, marks=tuple(marks)), self.sheet)
+        marks: tuple[Mark, ...] = ()
+        if scale < make.LETTERS_FROM and destinations.size:  # cells are too small to be found by their colour alone
+            ends = centres_of(area, destinations)
+            marks = (Discs(*ends, 0.65, PAGE, 5.0), Discs(*ends, 0.5, DESTINATION, 3.5))
+        paint_disc_marks(frame, replace(self.scene, marks=marks), self.sheet)
         x, y = x * scale + self.sheet.body[0], y * scale + self.sheet.body[1]
         for robots, colour in self._groups(step, cells):
             paint_discs(frame, x[robots], y[robots], max(_RADIUS * scale, _LEAST_RADIUS), colour)
