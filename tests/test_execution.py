@@ -203,6 +203,9 @@ def test_what_no_robot_can_follow_is_refused_and_changes_nothing():
         execution.observe(blocked=[(5, 0)])
     with pytest.raises(th.ExecutionError, match=r"robot 0 stands at \(0, 0\)"):
         execution.join((0, 0))
+    for late in ([2], [-1]):
+        with pytest.raises(th.ExecutionError, match=rf"late must name robots 0\.\.1, not {late[0]}"):
+            execution.step(late)
     with pytest.raises(th.ExecutionError, match="distinct free cells"):
         execution.place({0: (2, 0)})
     with pytest.raises(th.ExecutionError, match=r"one of 0\.\.1, not 2"):

@@ -251,9 +251,18 @@ class Execution:
         ----------
         late : numbers of robots, optional
             Who cannot move in this step; the others keep clear of them.
+
+        Raises
+        ------
+        ExecutionError
+            If there is no such robot.
         """
         is_late = np.zeros(self._state.size, dtype=bool)
-        is_late[np.fromiter(late, dtype=np.int64)] = True
+        numbers = np.fromiter(late, dtype=np.int64)
+        if numbers.size and (numbers.min() < 0 or numbers.max() >= is_late.size):
+            wrong = int(numbers[(numbers < 0) | (numbers >= is_late.size)][0])
+            raise ExecutionError(f"late must name robots 0..{is_late.size - 1}, not {wrong}")
+        is_late[numbers] = True
         if self.guide is not None and not self.is_over:
             planned = self.guide.step(self.steps_done + 1, self._world, is_late)
             if planned is not None:
