@@ -141,7 +141,7 @@ def test_a_changed_study_and_another_version_are_refused(study, tmp_path, here, 
         "change it back to go on, or remove the journal to begin anew\n"
     )
     assert journal_of("t.csv").read_bytes() == content
-    monkeypatch.setattr(journal_module, "__version__", "9.9")
+    monkeypatch.setattr(journal_module, "versions", lambda: {"trihex": "9.9"})
     result = asked("study.toml", "--out", "t.csv")
     assert result.exit_code == 2 and "was begun by trihex 0.1.0, this is 9.9" in result.stderr
     monkeypatch.undo()

