@@ -89,7 +89,7 @@ CASES = {
     "npz of another place": (None, ["check", "plan.npz", "--cell-size", "0.5"], "plan.npz holds its area itself, so how to read one cannot be told"),
     "npz of another size": (None, ["check", "plan.npz", "closed.map"], "plan.npz needs an area of 4 x 3 cells, closed.map has 3 x 1"),
     "waypoints without metres": (None, ["convert", "plan.npz", "p.geojson"], "the area is measured in cells, not in metres"),
-    "an area is no plan": (None, ["check", "world.map", "world.map", *AIM], "world.map: must hold a plan*, not a MovingAI map"),
+    "an area is no plan": (None, ["check", "world.map", "world.map", *AIM], "world.map must hold a plan (.npz, .csv or .parquet), not a MovingAI map"),
     "movie of no kind": (None, ["animate", "plan.csv", "world.map", *AIM, "--out", "p.avi"], "p.avi: the suffix of a movie must be one of *, not '.avi'"),
     "field without destination": (None, ["field", "world.map"], "there is no destination: add --destination X,Y"),
     "unknown generator": (None, ["generate", "rooom", "--size", "9,9", "--out", "a.map"], "KIND must be one of random, rooms, maze, caves, warehouse, not 'rooom'; did you mean 'rooms'?"),

@@ -165,7 +165,10 @@ def _check_free(area: Area, cells: NDArray[np.int64], one: str) -> None:
         number, where, why = int(stuck[0]), area.name_of_cell(int(cells[stuck[0]])), ""
         if area.frame is not None:
             where += _metres_of(area, int(cells[number]))
-            why = f": something stands too near for robots of radius {area.frame.robot_radius:g}"
+            radius = area.frame.robot_radius
+            why = (
+                f": something stands too near for robots of radius {radius:g}" if radius else ": something stands there"
+            )
         near = _free_cell_near(area, int(cells[number]))
         hint = "" if near is None else f"; the nearest free cell is {area.name_of_cell(near)}{_metres_of(area, near)}"
         raise ScenarioError(f"{one} {number} must stand on a free cell; {where} is a barrier{why}{hint}")

@@ -179,9 +179,12 @@ def read_judged(path: Path, area: Path | None, options: dict[str, Any]) -> Plan:
     from trihex.formats import read_draft, read_plan
     from trihex.formats.draft import draft_of
     from trihex.formats.files import read_bytes
-    from trihex.formats.recognise import format_of
+    from trihex.formats.recognise import NAME_OF_FORMAT, format_of
 
-    if format_of(read_bytes(path), path) != "npz":
+    form = format_of(read_bytes(path), path)
+    if form != "npz":
+        if form not in ("plan", "parquet"):
+            raise wrong_use(f"{path} must hold a plan (.npz, .csv or .parquet), not {NAME_OF_FORMAT[form]}")
         if area is None:
             raise wrong_use(f"{path} does not hold its area: add AREA")
         scenario = complete(read_described(area, options), needs_robots=False)
