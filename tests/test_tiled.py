@@ -9,6 +9,7 @@ import time
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from itertools import product
 
+import distributed
 import numpy as np
 import pytest
 import zarr
@@ -108,6 +109,19 @@ def test_tiles_may_be_settled_in_any_order_and_at_once(seed, tmp_path):
         )
         executor.shutdown()
         assert np.array_equal(np.load(tmp_path / "field.npy"), want)
+
+
+def test_tiles_are_settled_by_the_workers_of_a_dask_scheduler(tmp_path):
+    barriers, destinations = draw(np.random.default_rng(2), (30, 50))
+    np.save(tmp_path / "area.npy", barriers)
+    x, y = destinations[0]
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=False, dashboard_address=None
+    ) as cluster:
+        words = ["field", str(tmp_path / "area.npy"), "--destination", f"{x},{y}", "--out", str(tmp_path / "field.npy")]
+        result = CliRunner().invoke(main, [*words, "--tile", "8", "--scheduler", cluster.scheduler_address])
+    assert result.exit_code == 0, result.output
+    assert np.array_equal(np.load(tmp_path / "field.npy"), in_memory(barriers, destinations[:1], "hexagonal"))
 
 
 def test_zarr_in_and_out(tmp_path):
