@@ -2,7 +2,7 @@
 
 from numba import njit, types
 
-from trihex.kernels.flow import TABLE
+from trihex.kernels.flow_search import TABLE
 from trihex.kernels.signatures import IN_I32, IN_I64, IN_U8, IN_U16, OUT_I32, OUT_I64, OUT_U8, TABLE_I32
 
 WAIT = 255

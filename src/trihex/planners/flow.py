@@ -68,6 +68,7 @@ def make_flow(
         If the layers would take more than `memory_limit`.
     """
     from trihex.kernels import flow as kernels
+    from trihex.kernels import flow_search as searches
 
     size = network.node_count
     limit = _available_memory() * 4 // 5 if memory_limit is None else memory_limit
@@ -75,7 +76,7 @@ def make_flow(
     layers = _least_layers(network, cells) + 8
     _check_memory(size, layers, cells.size, limit)
     is_vertex = (np.arange(size) >= network.cell_count) & (np.arange(size) < network.first_destination)
-    layer = kernels.Layer(
+    layer = searches.Layer(
         network.out_arcs,
         network.in_arcs,
         network.hops,
@@ -84,20 +85,18 @@ def make_flow(
         network.first_destination,
         255 if capacity is None else min(capacity, 255),
         network.base,
-        int(np.gcd.reduce(network.out_arcs[:, :, 3], axis=None)) or kernels.MARK,
+        int(np.gcd.reduce(network.out_arcs[:, :, 3], axis=None)) or searches.MARK,
     )
-    nodes = kernels.Nodes(*(np.zeros(layers * size, dtype) for dtype in (np.uint8, np.int32, np.int32)))
+    nodes = searches.Nodes(*(np.zeros(layers * size, dtype) for dtype in (np.uint8, np.int32, np.int32)))
     back, ahead = (
-        kernels.Search(
-            np.empty(_LIST, dtype=np.int64),
-            np.empty((_LIST, 4), dtype=np.int64),
-            np.array([0, 0, 0, kernels.MARK, 0], dtype=np.int64),
+        searches.Search(
+            np.empty((_LIST, 8), dtype=np.int64), np.array([0, searches.NONE, 0, searches.MARK], dtype=np.int64)
         )
         for _ in range(2)
     )
     lacks = np.zeros(size, dtype=np.uint8)
     lacks[cells] = 1
-    ends = kernels.Ends(
+    ends = searches.Ends(
         read_only(network.hops[cells].astype(np.int64) * size + cells),
         read_only(network.value[cells].astype(np.int64)),
         lacks,
@@ -114,12 +113,12 @@ def make_flow(
             progress(int(state[kernels.SERVED]), cells.size)
         if status == kernels.DONE:
             return Flow(network, ends.start, nodes.flow, int(state[kernels.TOTAL]) * network.unit)
-        if status == kernels.LIST_FULL:
+        if status == searches.LIST_FULL:
             back, ahead = _with_room(back), _with_room(ahead)
         elif status == kernels.LAYERS_FULL:
             more = max(8, layers // 2)
             _check_memory(size, layers + more, cells.size, limit)
-            nodes = kernels.Nodes(*(_grown(array, array.size // layers * more) for array in nodes))
+            nodes = searches.Nodes(*(_grown(array, array.size // layers * more) for array in nodes))
             ends = ends._replace(goals=_grown(ends.goals, ends.goals.size // layers * more))
             layers += more
         elif status == kernels.LEVELS_FULL:
@@ -129,14 +128,14 @@ def make_flow(
 
 
 def _with_room(search: Any) -> Any:
-    """Return a search with larger lists if they are nearly full."""
-    from trihex.kernels import flow as kernels
+    """Return a search with a longer log if that is full."""
+    from trihex.kernels import flow_search as searches
 
-    if search.state[kernels.LOGGED] + 2 * kernels.ROOM < search.stack.size:
+    if search.state[searches.LOGGED] < len(search.log):
         return search
     log = np.empty((2 * len(search.log), search.log.shape[1]), dtype=np.int64)
     log[: len(search.log)] = search.log
-    return search._replace(stack=_grown(search.stack, search.stack.size), log=log)
+    return search._replace(log=log)
 
 
 def _grown(array: NDArray[Any], more: int) -> NDArray[Any]:

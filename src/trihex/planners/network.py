@@ -43,10 +43,11 @@ class Network(Record):
         Least number of steps to a destination.
     value : ndarray of int32, shape (nodes,)
         Least cost to a destination, in units.
-    out_arcs, in_arcs : ndarray of int32, shape (nodes, most arcs, 4)
+    out_arcs, in_arcs : ndarray of int32, shape (nodes, most arcs + 1, 6)
         Of each arc that leaves or enters a node: what to add to the index to get the other node (0: no more arcs), its
         reduced cost, its place among the arcs of the other node (plus `TO_GOAL` where it leads to a destination), and
-        what it costs beyond `base` a step. In descending order of reduced cost.
+        what it costs beyond `base` a step; the other node and how many layers on it is. In descending order of reduced
+        cost.
     """
 
     scenario: Scenario
@@ -122,7 +123,8 @@ def make_network(n_scheme: NScheme, objective: str = "time") -> Network:
     is_vertex = np.zeros(sites.size, dtype=np.int64)
     is_vertex[cells.size : first_goal] = 1
     extra = (cost - base * (steps + is_vertex[head] - is_vertex[tail])) // unit
-    offset = (steps + hops[head] - hops[tail]) * sites.size + head - tail
+    row = steps + hops[head] - hops[tail]
+    offset = row * sites.size + head - tail
     place_out, place_in = _places(tail, -reduced), _places(head, -reduced)
     return Network(
         scenario,
@@ -133,8 +135,10 @@ def make_network(n_scheme: NScheme, objective: str = "time") -> Network:
         base // unit,
         read_only(hops.astype(np.int32)),
         read_only((value // unit).astype(np.int32)),
-        _table(sites.size, tail, place_out, offset, reduced, place_in + TO_GOAL * (head >= first_goal), extra),
-        _table(sites.size, head, place_in, -offset, reduced, place_out, extra),
+        _table(
+            sites.size, tail, place_out, offset, reduced, place_in + TO_GOAL * (head >= first_goal), extra, head, row
+        ),
+        _table(sites.size, head, place_in, -offset, reduced, place_out, extra, tail, -row),
     )
 
 

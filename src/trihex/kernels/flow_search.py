@@ -1,0 +1,260 @@
+"""Depth-first searches for a path of one cost through the residual graph of a flow, from either end.
+
+Every node takes one unit of flow. A node that carries flow is entered against it and left against it: whoever enters
+goes back to where the flow came from. So the search ahead keeps only nodes that it leaves, and the search back only
+nodes that it enters.
+
+Both prune by a lower bound that each node keeps: ``since``, the cost from a robot without path to the node, less `base`
+a step; ``ahead``, the cost from the node to a destination, less its value in the network. A node is visited while its
+*slack*, what the path may still cost beyond that, is not below its bound. Neither cost ever falls as robots get their
+paths, so a bound may be raised as soon as a node is known to lead nowhere: as in the method of Tarjan (1972), when the
+search leaves the first visited node of a strongly connected component, all visited since then are done with. They are
+raised by the least slack that any visit was short of; with equal costs there is none, and they are dead for ever.
+"""
+
+from typing import Any, NamedTuple
+
+from numba import njit, types
+
+from trihex.kernels.signatures import IN_BOOL, IN_I32, IN_I64, OUT_I32, OUT_I64, OUT_U8
+
+# What a search ends with.
+BUDGET_SPENT, LIST_FULL, FOUND, EXHAUSTED = range(4)
+# Places in the state of a search: length of its log, entry under way, next root, least shortfall.
+LOGGED, CURRENT, ROOT, SHORT = range(4)
+# Columns of the log: index, node and (search back only) layer; slack; entry it was visited from and by which arc;
+# places of the arcs that have been tried, as bits; first entry that is known to be reached from here.
+AT, NODE, ROW, SLACK, FROM, VIA, TRIED, LOW = range(8)
+# Columns of the arcs: see `trihex.planners.network`.
+OFFSET, REDUCED, PLACE, EXTRA, OTHER, ROWS = range(6)
+# Flow of a node: place + 1 of the arc out in the low four bits, of the arc in in the high four; a robot starts there.
+START = 15
+# Place of the arc from the entered to the left side of the same node.
+OWN = 14
+# Added to the place of arcs that lead to a destination.
+TO_GOAL = 16
+# Bounds: MARK + entry while a node is visited and not done with.
+MARK = 1 << 30
+DEAD = MARK - 1
+FAR_AWAY = 1 << 20
+NONE = -1
+
+
+class Layer(NamedTuple):
+    """Arcs of one layer, as in `trihex.planners.network`, and what holds for all.
+
+    ``order`` lists the nodes so that arcs within a layer go forward; ``grain`` is what slacks are multiples of.
+    """
+
+    out: Any
+    into: Any
+    hops: Any
+    order: Any
+    is_vertex: Any
+    first_goal: int
+    capacity: int
+    base: int
+    grain: int
+
+
+class Nodes(NamedTuple):
+    """Flow and bounds of all nodes of all layers."""
+
+    flow: Any
+    since: Any
+    ahead: Any
+
+
+class Search(NamedTuple):
+    """What was visited, and the state."""
+
+    log: Any
+    state: Any
+
+
+class Ends(NamedTuple):
+    """Start and value of each robot, ascending; whether a robot without path starts in a cell; goals that are open.
+
+    ``away`` is the number of steps from the nearest robot without path, some time ago: a hint where to look.
+    """
+
+    start: Any
+    value: Any
+    lacks: Any
+    goals: Any
+    away: Any
+    queue: Any
+
+
+TABLE = types.Array(types.int32, 3, "C", readonly=True)
+LAYER = types.NamedTuple([TABLE, TABLE, IN_I32, IN_I32, IN_BOOL, *[types.int64] * 4], Layer)
+NODES = types.NamedTuple([OUT_U8, OUT_I32, OUT_I32], Nodes)
+SEARCH = types.NamedTuple([types.Array(types.int64, 2, "C"), OUT_I64], Search)
+ENDS = types.NamedTuple([IN_I64, IN_I64, OUT_U8, OUT_I64, OUT_I32, OUT_I32], Ends)
+
+
+@njit(nogil=True)
+def visit(at, node, row, slack, seen_from, via, bound, search):
+    """Log a node that is visited; return its entry."""
+    log, entry = search.log, search.state[LOGGED]
+    log[entry, AT], log[entry, NODE], log[entry, ROW] = at, node, row
+    log[entry, SLACK], log[entry, FROM], log[entry, VIA] = slack, seen_from, via
+    log[entry, TRIED], log[entry, LOW] = 0, entry
+    bound[at] = MARK + entry
+    search.state[LOGGED] += 1
+    search.state[CURRENT] = entry
+    return entry
+
+
+@njit(nogil=True)
+def _may_visit(at, slack, entry, bound, search):
+    """Tell whether a node is worth a visit, and if not, note why."""
+    before = bound[at]
+    if before < MARK:
+        if slack >= before:
+            return True
+        if before < DEAD:
+            search.state[SHORT] = min(search.state[SHORT], before - slack)
+        return False
+    seen = before - MARK
+    if slack > search.log[seen, SLACK]:
+        return True
+    search.log[entry, LOW] = min(search.log[entry, LOW], seen)
+    return False
+
+
+@njit(nogil=True)
+def leave(bound, search):
+    """Go back from the entry under way; what cannot reach anything visited before it is done with."""
+    log, state = search.log, search.state
+    entry = state[CURRENT]
+    state[CURRENT] = log[entry, FROM]
+    if log[entry, LOW] < entry:
+        log[state[CURRENT], LOW] = min(log[state[CURRENT], LOW], log[entry, LOW])
+        return
+    for done in range(entry, state[LOGGED]):
+        at = log[done, AT]
+        if bound[at] == MARK + done:
+            bound[at] = min(log[done, SLACK] + state[SHORT], DEAD)
+    state[LOGGED] = entry
+
+
+@njit(nogil=True)
+def forget(bound, search, more):
+    """Begin again from the same root; the bounds of what is not done with are no less than its slack plus `more`."""
+    log, state = search.log, search.state
+    if state[LOGGED] > 0:
+        state[ROOT] -= 1
+    for entry in range(state[LOGGED]):
+        at = log[entry, AT]
+        if bound[at] == MARK + entry:
+            bound[at] = min(log[entry, SLACK] + more, DEAD)
+    state[LOGGED] = 0
+    state[CURRENT] = NONE
+    state[SHORT] = MARK
+
+
+@njit(nogil=True)
+def step_back(entry, layer, nodes, search, ends):
+    """Visit that node before the one under way which is nearest to a robot without path; False if none is left."""
+    log = search.log
+    at, node, row, slack = log[entry, AT], log[entry, NODE], log[entry, ROW], log[entry, SLACK]
+    flow = nodes.flow[at]
+    is_goal = node >= layer.first_goal
+    best = FAR_AWAY * 4
+    best_at = best_node = best_row = best_slack = best_place = 0
+    last = layer.into.shape[1]
+    for j in range(last):
+        offset = layer.into[node, j, OFFSET]
+        place = j
+        if offset == 0:  # after the last arc: back along the flow that leaves
+            if is_goal or flow == 0:
+                break
+            place = OWN
+        if log[entry, TRIED] >> place & 1:
+            if place == OWN:
+                break
+            continue
+        if place == OWN:
+            other, tail, other_row, left = at, node, row, slack
+        else:
+            other, tail = at + offset, layer.into[node, j, OTHER]
+            other_row, left = row + layer.into[node, j, ROWS], slack - layer.into[node, j, EXTRA]
+            i = (nodes.flow[other] & 15) - 1
+            if (i == layer.into[node, j, PLACE]) if is_goal else (j == (flow >> 4) - 1):
+                continue
+        if nodes.flow[other] != 0:
+            i = (nodes.flow[other] & 15) - 1
+            other += layer.out[tail, i, OFFSET]
+            other_row += layer.out[tail, i, ROWS]
+            left += layer.out[tail, i, EXTRA]
+            tail = layer.out[tail, i, OTHER]
+        if _may_visit(other, left, entry, nodes.since, search):
+            far = ends.away[tail]
+            if far > other_row - layer.hops[tail]:  # too far for the steps that are left
+                far += FAR_AWAY
+            if far <= best:
+                best, best_place = far, place
+                best_at, best_node, best_row, best_slack = other, tail, other_row, left
+        else:
+            log[entry, TRIED] |= 1 << place
+        if place == OWN:
+            break
+    if best == FAR_AWAY * 4:
+        return False
+    log[entry, TRIED] |= 1 << best_place
+    visit(best_at, best_node, best_row, best_slack, entry, best_place, nodes.since, search)
+    return True
+
+
+@njit(nogil=True)
+def _step_against(at, node, j, entry, via, layer, nodes, search):
+    """Visit the node from which flow comes along arc j into a node, if that is worth it."""
+    slack = search.log[entry, SLACK] + layer.into[node, j, REDUCED]
+    if via != OWN and node < layer.first_goal:
+        slack -= layer.out[search.log[entry, NODE], via, REDUCED]
+    other = at + layer.into[node, j, OFFSET]
+    if not _may_visit(other, slack, entry, nodes.ahead, search):
+        return False
+    visit(other, layer.into[node, j, OTHER], 0, slack, entry, via, nodes.ahead, search)
+    return True
+
+
+@njit(nogil=True)
+def step_ahead(entry, layer, nodes, search):
+    """Visit that node after the one under way which is nearest to a destination; False if none is left."""
+    log = search.log
+    at, node, slack = log[entry, AT], log[entry, NODE], log[entry, SLACK]
+    flow = nodes.flow[at]
+    if node >= layer.first_goal:  # full: somebody else is to arrive elsewhere
+        for j in range(layer.into.shape[1]):
+            other = at + layer.into[node, j, OFFSET]
+            if other == at:
+                break
+            if log[entry, TRIED] >> j & 1:
+                continue
+            log[entry, TRIED] |= 1 << j
+            if (nodes.flow[other] & 15) - 1 == layer.into[node, j, PLACE]:
+                if _step_against(at, node, j, entry, j, layer, nodes, search):
+                    return True
+        return False
+    for i in range(layer.out.shape[1] - 1, -1, -1):
+        offset = layer.out[node, i, OFFSET]
+        if offset == 0 or log[entry, TRIED] >> i & 1 or i == (flow & 15) - 1:
+            continue
+        log[entry, TRIED] |= 1 << i
+        head, other = at + offset, layer.out[node, i, OTHER]
+        left = slack - layer.out[node, i, REDUCED]
+        passes = nodes.flow[head]
+        if passes == 0 or other >= layer.first_goal:
+            if _may_visit(head, left, entry, nodes.ahead, search):
+                visit(head, other, 0, left, entry, i, nodes.ahead, search)
+                return True
+        elif passes >> 4 != START:
+            if _step_against(head, other, (passes >> 4) - 1, entry, i, layer, nodes, search):
+                return True
+    j = (flow >> 4) - 1
+    if flow == 0 or j == START - 1 or log[entry, TRIED] >> OWN & 1:
+        return False
+    log[entry, TRIED] |= 1 << OWN
+    return _step_against(at, node, j, entry, OWN, layer, nodes, search)
