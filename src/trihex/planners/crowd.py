@@ -38,7 +38,8 @@ class Crowd:
 
     def __post_init__(self) -> None:
         size, layout = self.robot.size, self.scenario.area.layout
-        forbids, has_capacity = self.scenario.crossing == "forbid", self.scenario.destination_capacity is not None
+        has_capacity = self.scenario.destination_capacity is not None
+        forbids = self.rules[0] < self.scenario.area.tessellation.direction_count
         #: The step in which each robot arrives, 0 until then.
         self.arrival = np.zeros(size, dtype=np.int64)
         self.row_of_robot = np.zeros(size, dtype=np.int32)
