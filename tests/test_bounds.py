@@ -113,6 +113,8 @@ def test_the_best_bound_is_named_and_told():
 @given(scenarios(sides=(1, 4), most_robots=7))
 def test_no_bound_exceeds_the_optimum(scenario):
     optimum = least_total_time(scenario, 8 + scenario.robot_count)
+    if optimum is None:  # so many steps are seldom needed, and more of them cost time
+        optimum = least_total_time(scenario, scenario.area.free_count + scenario.robot_count)
     assert max(values(scenario)) <= optimum
 
 
