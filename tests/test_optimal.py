@@ -1,9 +1,10 @@
-"""The optimum against integer programming over drawn cells, and what makes it refuse."""
+"""The optimum against min-cost flow, max flow and integer programming over drawn cells; what makes it refuse."""
 
 import numpy as np
 import pytest
 
 import trihex as th
+from tests import oracle_flow
 from tests.oracle_optimum import least_total_time
 from tests.strategies import random_scenario
 from trihex.planners import make_plan
@@ -16,10 +17,42 @@ def cannot_always_be_proven(scenario):
     return scenario.waiting_cost > tessellation.edge_cost or (two_costs and scenario.crossing == "forbid")
 
 
+def crowded_scenario(seed):
+    """A scenario of which a flow knows all rules."""
+    scenario = random_scenario(seed, sides=(3, 7), most_robots=24)
+    while cannot_always_be_proven(scenario):
+        seed += 100_000
+        scenario = random_scenario(seed, sides=(3, 7), most_robots=24)
+    return scenario
+
+
 @pytest.mark.parametrize("share", range(10))
+def test_the_least_total_time_is_that_of_or_tools(share):
+    for seed in range(share, 300, 10):
+        scenario = crowded_scenario(seed)
+        plan = make_plan(scenario, "optimal")
+        assert th.audit_plan(plan).is_clean
+        assert plan.optimal, seed
+        assert plan.total_time == oracle_flow.least_total_time(scenario, plan.steps + 5), seed
+
+
+@pytest.mark.parametrize("share", range(5))
+def test_the_last_arrival_is_that_of_max_flow(share):
+    for seed in range(share, 50, 5):
+        scenario = crowded_scenario(7_000 + seed)
+        plan = make_plan(scenario, "optimal", objective="steps")
+        assert th.audit_plan(plan).is_clean
+        arriving = np.count_nonzero(plan.arrived & (plan.arrival_step_of_robot > 0))
+        if arriving == 0:
+            continue
+        assert oracle_flow.most_arrivals(scenario, plan.steps) == arriving, seed
+        assert oracle_flow.most_arrivals(scenario, plan.steps - 1) < arriving, seed
+
+
+@pytest.mark.parametrize("share", range(5))
 def test_the_least_total_time_is_that_of_integer_programming(share):
     proven = 0
-    for seed in range(share, 300, 10):
+    for seed in range(share, 100, 5):
         scenario = random_scenario(seed, sides=(1, 5), most_robots=9)
         plan = make_plan(scenario, "optimal")
         assert th.audit_plan(plan).is_clean
@@ -30,12 +63,12 @@ def test_the_least_total_time_is_that_of_integer_programming(share):
             assert cannot_always_be_proven(scenario), seed
             assert plan.total_time >= least, seed
         proven += plan.optimal
-    assert proven >= 28
+    assert proven >= 17
 
 
 @pytest.mark.parametrize("share", range(5))
 def test_the_least_sum_of_steps_is_that_of_integer_programming(share):
-    for seed in range(share, 60, 5):
+    for seed in range(share, 40, 5):
         scenario = random_scenario(seed, sides=(1, 5), most_robots=9)
         plan = make_plan(scenario, "optimal", objective="steps")
         assert th.audit_plan(plan).is_clean
