@@ -43,7 +43,9 @@ def figures(scenario):
     }
 
 
-@pytest.mark.parametrize(("name", "scenario"), scenarios(), ids=lambda value: value if isinstance(value, str) else "")
+@pytest.mark.parametrize(
+    ("name", "scenario"), list(scenarios()), ids=lambda value: value if isinstance(value, str) else ""
+)
 def test_the_optimum_is_what_it_was(name, scenario):
     assert figures(scenario) == json.loads(FILE.read_text())[name]
 
