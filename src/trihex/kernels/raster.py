@@ -102,8 +102,8 @@ def paint_discs(x, y, radius, rgb, out):
     height, width = out.shape[0], out.shape[1]
     for disc in range(len(x)):
         reach = radius + 0.5
-        top, bottom = max(0, np.int64(y[disc] - reach - 0.5)), min(height, np.int64(y[disc] + reach + 1.5))
-        left, right = max(0, np.int64(x[disc] - reach - 0.5)), min(width, np.int64(x[disc] + reach + 1.5))
+        top, bottom = max(0, int(y[disc] - reach - 0.5)), min(height, int(y[disc] + reach + 1.5))
+        left, right = max(0, int(x[disc] - reach - 0.5)), min(width, int(x[disc] + reach + 1.5))
         for i in range(top, bottom):
             down = i + 0.5 - y[disc]
             for j in range(left, right):
