@@ -17,9 +17,6 @@ MEETINGS, QUEUE = 0, 1
 # is one that it has not just left.
 STAY, WORTH, ALWAYS = 0, 1, 2
 WAIT = 255
-# Lines are counted anew every so many steps, and a robot whose way is free looks for a better one as often: twice as
-# fast as in each step, and the plans are as good.
-_PERIOD = 4
 _FAR = 1 << 60
 
 
@@ -101,13 +98,14 @@ def weigh(
 ):
     """Let the robots of `regions` act for `steps` steps after `first_step`; fill a row of actions for each.
 
-    `rules` are: what c counts, when to step aside, w_t, the first vertex move that may not be crossed, the capacity of
+    `rules` are: what c counts, when to step aside, every how many steps lines are counted anew and a robot whose way
+    is free looks for a better one, w_t, the first vertex move that may not be crossed, the capacity of
     a destination (0: any). Each robot takes the free direction of least Fcost, unless waiting for the best direction
     promises less. In each region one robot, the captain, or who stands at the head of its way, is asked first and
     descends; so a captain arrives in bounded time, and then there is another. `lost` counts what all robots lose: the
     cost of waits, and of moves beyond what they come nearer.
     """
-    counts, aside, waiting_cost, first_vertex_move, capacity = rules
+    counts, aside, period, waiting_cost, first_vertex_move, capacity = rules
     filled = 0
     loss = 0
     waiting_for_other = np.empty(len(listed), np.int32)
@@ -136,7 +134,7 @@ def weigh(
             for branch in range(first_branch, last_branch):
                 if counts == MEETINGS:
                     count_meetings(first_slot[branch], first_slot[branch + 1], count, line)
-                elif s % _PERIOD == 0:
+                elif s % period == 0:
                     line_up(first_slot[branch], lined_end[branch], count, line)
             captain = captain_of_region[region]
             if captain == 0 or site_of_robot[captain] == 0:
@@ -204,9 +202,7 @@ def weigh(
                         continue
                     if descends and taken != WAIT:
                         line[own_slot] &= LEAD - 1
-                    elif least > own_distance and (
-                        counts == MEETINGS or taken == WAIT or (step + robot) % _PERIOD == 0
-                    ):
+                    elif least > own_distance and (counts == MEETINGS or taken == WAIT or (step + robot) % period == 0):
                         untried = moves[site] & ~best_moves[site]
                         while untried:
                             k = np.int64(trailing_zeros(untried))
