@@ -16,15 +16,16 @@ import trihex as th
 from benchmarks.measure import machine
 from trihex.schemes import NOT_REACHED
 
+# Robots on hexagons and on triangles.
 ROBOTS = {
     "random-32-32-20": (200, 200),
-    "random-64-64-20": (500, 400),
-    "room-64-64-8": (400, 300),
+    "random-64-64-20": (300, 200),
+    "room-64-64-8": (200, 200),
     "maze-32-32-2": (200, 200),
-    "den312d": (400, 300),
-    "ost003d": (500, 300),
-    "warehouse-10-20-10-2-1": (500, 400),
-    "Berlin_1_256": (500, 300),
+    "den312d": (200, 200),
+    "ost003d": (300, 200),
+    "warehouse-10-20-10-2-1": (300, 200),
+    "Berlin_1_256": (300, 200),
 }
 KINDS = (
     ("hexagonal", "all over", 1),
@@ -79,7 +80,7 @@ def measured(n_scheme: th.NScheme, planner: str, options: dict[str, str]) -> tup
 def main(options: list[str]) -> None:
     parser = argparse.ArgumentParser(prog="python -m benchmarks gaps", description=__doc__)
     parser.add_argument("--maps", type=Path, help="folder of the MovingAI maps")
-    parser.add_argument("--only", help="only areas whose names contain this")
+    parser.add_argument("--only", nargs="*", default=[""], help="only areas whose names begin with one of these")
     chosen = parser.parse_args(options)
     print(machine(), "", sep="\n")
     names = ("area", "tessellation", "robots", "seed", "optimum", "s optimal", "s fcost", *PLANNERS)
@@ -93,7 +94,7 @@ def main(options: list[str]) -> None:
     for number in range(len(ROBOTS)):
         for tessellation, kind, seed in KINDS:
             area, robots = list(areas(chosen.maps, tessellation))[number]
-            if chosen.only and chosen.only not in area.name:
+            if not area.name.startswith(tuple(chosen.only)):
                 continue
             n_scheme = th.make_n_scheme(make_scenario(area, robots, kind, seed))
             best, seconds = measured(n_scheme, "optimal", {})
