@@ -98,8 +98,8 @@ def descend(
     ``cells[site]`` holds the best directions and whether the site is a destination, ``robot_at[site]`` who stands
     there (0: nobody). The robots of a region stand in its part of `listed`, those that started nearest first. Each
     takes the first of its best directions that is free. If a robot stands in its way that has not yet been asked in
-    this step, that one is asked first; it is nearer, so this ends, and nobody waits for a cell that becomes free in the same
-    step. (Sorting the robots by distance in each step instead made plans 1.5 % worse and took twice as long.)
+    this step, that one is asked first; it is nearer, so this ends, and nobody waits for a cell that becomes free in the
+    same step. (Sorting the robots by distance in each step instead made plans 1.5 % worse and took twice as long.)
 
     A move from `first_vertex_move` on passes a lattice vertex: ``passed`` holds the block in its upper half and the
     steps of the block in its lower. A destination takes `capacity` robots a step (0: any number). The nearest robot of
