@@ -73,7 +73,7 @@ def run_case(maps: Path | None, case: Case, seeds: list[int]) -> None:
     memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**20
     times = " ".join(f"{one:8.2f}" for one in seconds)
     print(
-        f"{tessellation:12}{area.name:20}{robots:7}{times}{np.median(seconds):9.2f}{memory:8.2f}   {', '.join(totals)}",
+        f"{tessellation:13}{area.name:20}{robots:7}{times}{np.median(seconds):9.2f}{memory:8.2f}   {', '.join(totals)}",
         flush=True,
     )
 
@@ -144,7 +144,7 @@ def main(options: list[str]) -> None:
     chosen = parser.parse_args(options)
     print(machine("ortools"))
     header = f"{'CPU seconds by seed':>{9 * len(chosen.seeds) - 1}}{'median':>9}{'GiB':>8}   optimum"
-    print(f"{'tessellation':12}{'area':20}{'robots':>7}{header}")
+    print(f"{'tessellation':13}{'area':20}{'robots':>7}{header}")
     spawn = multiprocessing.get_context("spawn")
     jobs = [(run_case, (chosen.maps, case, chosen.seeds)) for case in CASES if chosen.only in " ".join(map(str, case))]
     for tessellation in ("hexagonal", "triangular"):
