@@ -93,7 +93,7 @@ def test_bombs_and_torn_files_are_refused(tmp_path, content, message):
         ({"resolution": 0.0}, r"resolution must be between 1e-9 and 1e9 metres, not 0"),
         ({"resolution": 0.1}, "robot_radius and resolution need cell_size"),
         ({"robot_radius": 0.1}, "robot_radius and resolution need cell_size"),
-        ({"cell_size": 1.0}, "give resolution, the metres for each pixel"),
+        ({"cell_size": 1.0}, "say how many metres a pixel is wide"),
         ({"unknown": "fre"}, "unknown must be one of barrier, free, not 'fre'; did you mean 'free'"),
     ],
 )

@@ -53,7 +53,7 @@ def test_lines_that_are_wrong_are_named(tmp_path, old, new, message):
 
 def test_a_scen_file_is_no_area(tmp_path):
     (tmp_path / "a.scen").write_text(GOOD)
-    with pytest.raises(FormatError, match="must hold an area, not scen"):
+    with pytest.raises(FormatError, match="must hold an area, not starts"):
         read_area(tmp_path / "a.scen")
 
 
