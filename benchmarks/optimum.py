@@ -140,7 +140,7 @@ def main(options: list[str]) -> None:
     parser.add_argument("--maps", type=Path, help="folder of the MovingAI maps")
     parser.add_argument("--only", default="", help="only cases that contain this, such as 'hexagonal ost003d'")
     parser.add_argument("--seeds", nargs="*", type=int, default=[1, 2, 3])
-    parser.add_argument("--or-tools", nargs="*", type=int, default=[150], help="robots beside OR-tools")
+    parser.add_argument("--or-tools", nargs="*", type=int, default=[300], help="robots beside OR-tools")
     chosen = parser.parse_args(options)
     print(machine("ortools"))
     header = f"{'CPU seconds by seed':>{9 * len(chosen.seeds) - 1}}{'median':>9}{'GiB':>8}   optimum"
