@@ -50,9 +50,8 @@ from trihex.kernels.signatures import OUT_I64
 # What a call ends with, besides BUDGET_SPENT and LIST_FULL.
 DONE, LAYERS_FULL, LEVELS_FULL = range(4, 7)
 # Places in `state`.
-LEVEL, SERVED, TOTAL, TURN, QUOTA, LAYERS, OPEN_GOALS, SPENT, FIRST_ROBOT, LAST_ROBOT, AGE, SERVED_THEN, SIDE = range(
-    13
-)
+LEVEL, SERVED, TOTAL, TURN, QUOTA, LAYERS, OPEN_GOALS, SPENT, FIRST_ROBOT, LAST_ROBOT = range(10)
+AGE, SERVED_THEN, SIDE = range(10, 13)
 STATE_SIZE = 13
 # Whose turn it is.
 NEXT_LEVEL, BACK, AHEAD = range(3)
@@ -64,27 +63,30 @@ FIRST_QUOTA = 256
 def _look_back(layer, nodes, search, ends, state, budget):
     """Search back from open destinations for a robot without path; it is then the entry under way."""
     size = len(layer.hops)
-    own = search.state
+    own, log = search.state, search.log
+    out, into, hops, first_goal = layer.out, layer.into, layer.hops, layer.first_goal
+    flow, since, away = nodes.flow, nodes.since, ends.away
+    lacks, goals = ends.lacks, ends.goals
     for _ in range(budget):
         if own[CURRENT] != NONE:
-            if own[LOGGED] == len(search.log):
+            if own[LOGGED] == len(log):
                 return LIST_FULL
             entry = own[CURRENT]
-            node = search.log[entry, NODE]
-            if ends.lacks[node] and search.log[entry, ROW] == layer.hops[node]:
+            node = log[entry, NODE]
+            if lacks[node] and log[entry, ROW] == hops[node]:
                 return FOUND
-            if not step_back(entry, layer, nodes, search, ends):
-                leave(nodes.since, search)
+            if not step_back(entry, out, into, hops, first_goal, flow, since, away, log, own):
+                leave(since, log, own)
             continue
         own[SHORT] = MARK
         if own[ROOT] == state[OPEN_GOALS]:
             return EXHAUSTED
-        at = ends.goals[state[OPEN_GOALS] - 1 - own[ROOT]]  # latest first: with time to spare nobody pays more
+        at = goals[state[OPEN_GOALS] - 1 - own[ROOT]]  # latest first: with time to spare nobody pays more
         own[ROOT] += 1
         row = at // size
         slack = state[LEVEL] - layer.base * row
-        if nodes.flow[at] < layer.capacity and slack % layer.grain == 0 and slack >= nodes.since[at]:
-            visit(at, at % size, row, slack, NONE, 0, nodes.since, search)
+        if flow[at] < layer.capacity and slack % layer.grain == 0 and slack >= since[at]:
+            visit(at, at % size, row, slack, NONE, 0, since, log, own)
     return BUDGET_SPENT
 
 
@@ -92,16 +94,18 @@ def _look_back(layer, nodes, search, ends, state, budget):
 def _look_ahead(layer, nodes, search, ends, state, budget):
     """Search from robots without path for an open destination; it is then the entry under way."""
     size = len(layer.hops)
-    own = search.state
+    own, log = search.state, search.log
+    out, into, first_goal = layer.out, layer.into, layer.first_goal
+    flow, ahead, lacks = nodes.flow, nodes.ahead, ends.lacks
     for _ in range(budget):
         if own[CURRENT] != NONE:
-            if own[LOGGED] == len(search.log):
+            if own[LOGGED] == len(log):
                 return LIST_FULL
             entry = own[CURRENT]
-            if search.log[entry, NODE] >= layer.first_goal and nodes.flow[search.log[entry, AT]] < layer.capacity:
+            if log[entry, NODE] >= first_goal and flow[log[entry, AT]] < layer.capacity:
                 return FOUND
-            if not step_ahead(entry, layer, nodes, search):
-                leave(nodes.ahead, search)
+            if not step_ahead(entry, out, into, first_goal, flow, ahead, log, own):
+                leave(ahead, log, own)
             continue
         own[SHORT] = MARK
         if own[ROOT] == state[LAST_ROBOT]:
@@ -109,8 +113,8 @@ def _look_ahead(layer, nodes, search, ends, state, budget):
         at = ends.start[own[ROOT]]
         slack = state[LEVEL] - ends.value[own[ROOT]]
         own[ROOT] += 1
-        if ends.lacks[at % size] and slack >= nodes.ahead[at]:
-            visit(at, at % size, 0, slack, NONE, 0, nodes.ahead, search)
+        if lacks[at % size] and slack >= ahead[at]:
+            visit(at, at % size, 0, slack, NONE, 0, ahead, log, own)
     return BUDGET_SPENT
 
 

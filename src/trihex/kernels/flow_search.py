@@ -94,49 +94,48 @@ ENDS = types.NamedTuple([IN_I64, IN_I64, OUT_U8, OUT_I64, OUT_I32, OUT_I32], End
 
 
 @njit(nogil=True)
-def visit(at, node, row, slack, seen_from, via, bound, search):
-    """Log a node that is visited; return its entry."""
-    log, entry = search.log, search.state[LOGGED]
+def visit(at, node, row, slack, seen_from, via, bound, log, own):
+    """Log a node that is visited."""
+    entry = own[LOGGED]
     log[entry, AT], log[entry, NODE], log[entry, ROW] = at, node, row
     log[entry, SLACK], log[entry, FROM], log[entry, VIA] = slack, seen_from, via
     log[entry, TRIED], log[entry, LOW] = 0, entry
     bound[at] = MARK + entry
-    search.state[LOGGED] += 1
-    search.state[CURRENT] = entry
-    return entry
+    own[LOGGED] += 1
+    own[CURRENT] = entry
 
 
 @njit(nogil=True)
-def _may_visit(at, slack, entry, bound, search):
+def _may_visit(at, slack, entry, bound, log, own):
     """Tell whether a node is worth a visit, and if not, note why."""
     before = bound[at]
     if before < MARK:
         if slack >= before:
             return True
-        if before < DEAD:
-            search.state[SHORT] = min(search.state[SHORT], before - slack)
+        if before - slack < own[SHORT] and before < DEAD:
+            own[SHORT] = before - slack
         return False
     seen = before - MARK
-    if slack > search.log[seen, SLACK]:
+    if slack > log[seen, SLACK]:
         return True
-    search.log[entry, LOW] = min(search.log[entry, LOW], seen)
+    if seen < log[entry, LOW]:
+        log[entry, LOW] = seen
     return False
 
 
 @njit(nogil=True)
-def leave(bound, search):
+def leave(bound, log, own):
     """Go back from the entry under way; what cannot reach anything visited before it is done with."""
-    log, state = search.log, search.state
-    entry = state[CURRENT]
-    state[CURRENT] = log[entry, FROM]
+    entry = own[CURRENT]
+    own[CURRENT] = log[entry, FROM]
     if log[entry, LOW] < entry:
-        log[state[CURRENT], LOW] = min(log[state[CURRENT], LOW], log[entry, LOW])
+        log[own[CURRENT], LOW] = min(log[own[CURRENT], LOW], log[entry, LOW])
         return
-    for done in range(entry, state[LOGGED]):
+    for done in range(entry, own[LOGGED]):
         at = log[done, AT]
         if bound[at] == MARK + done:
-            bound[at] = min(log[done, SLACK] + state[SHORT], DEAD)
-    state[LOGGED] = entry
+            bound[at] = min(log[done, SLACK] + own[SHORT], DEAD)
+    own[LOGGED] = entry
 
 
 @njit(nogil=True)
@@ -155,106 +154,106 @@ def forget(bound, search, more):
 
 
 @njit(nogil=True)
-def step_back(entry, layer, nodes, search, ends):
+def step_back(entry, out, into, hops, first_goal, all_flow, since, away, log, own):
     """Visit that node before the one under way which is nearest to a robot without path; False if none is left."""
-    log = search.log
     at, node, row, slack = log[entry, AT], log[entry, NODE], log[entry, ROW], log[entry, SLACK]
-    flow = nodes.flow[at]
-    is_goal = node >= layer.first_goal
+    flow, tried = all_flow[at], log[entry, TRIED]
+    is_goal = node >= first_goal
     best = FAR_AWAY * 4
     best_at = best_node = best_row = best_slack = best_place = 0
-    last = layer.into.shape[1]
+    last = into.shape[1]
     for j in range(last):
-        offset = layer.into[node, j, OFFSET]
+        offset = into[node, j, OFFSET]
         place = j
         if offset == 0:  # after the last arc: back along the flow that leaves
             if is_goal or flow == 0:
                 break
             place = OWN
-        if log[entry, TRIED] >> place & 1:
+        if tried >> place & 1:
             if place == OWN:
                 break
             continue
         if place == OWN:
             other, tail, other_row, left = at, node, row, slack
         else:
-            other, tail = at + offset, layer.into[node, j, OTHER]
-            other_row, left = row + layer.into[node, j, ROWS], slack - layer.into[node, j, EXTRA]
-            i = (nodes.flow[other] & 15) - 1
-            if (i == layer.into[node, j, PLACE]) if is_goal else (j == (flow >> 4) - 1):
+            other, tail = at + offset, into[node, j, OTHER]
+            other_row, left = row + into[node, j, ROWS], slack - into[node, j, EXTRA]
+            i = (all_flow[other] & 15) - 1
+            if (i == into[node, j, PLACE]) if is_goal else (j == (flow >> 4) - 1):
                 continue
-        if nodes.flow[other] != 0:
-            i = (nodes.flow[other] & 15) - 1
-            other += layer.out[tail, i, OFFSET]
-            other_row += layer.out[tail, i, ROWS]
-            left += layer.out[tail, i, EXTRA]
-            tail = layer.out[tail, i, OTHER]
-        if _may_visit(other, left, entry, nodes.since, search):
-            far = ends.away[tail]
-            if far > other_row - layer.hops[tail]:  # too far for the steps that are left
+        if all_flow[other] != 0:
+            i = (all_flow[other] & 15) - 1
+            other += out[tail, i, OFFSET]
+            other_row += out[tail, i, ROWS]
+            left += out[tail, i, EXTRA]
+            tail = out[tail, i, OTHER]
+        if _may_visit(other, left, entry, since, log, own):
+            far = away[tail]
+            if far > other_row - hops[tail]:  # too far for the steps that are left
                 far += FAR_AWAY
             if far <= best:
                 best, best_place = far, place
                 best_at, best_node, best_row, best_slack = other, tail, other_row, left
         else:
-            log[entry, TRIED] |= 1 << place
+            tried |= 1 << place
         if place == OWN:
             break
+    log[entry, TRIED] = tried | 1 << best_place
     if best == FAR_AWAY * 4:
         return False
-    log[entry, TRIED] |= 1 << best_place
-    visit(best_at, best_node, best_row, best_slack, entry, best_place, nodes.since, search)
+    visit(best_at, best_node, best_row, best_slack, entry, best_place, since, log, own)
     return True
 
 
 @njit(nogil=True)
-def _step_against(at, node, j, entry, via, layer, nodes, search):
+def _step_against(at, node, j, entry, via, out, into, first_goal, all_flow, ahead, log, own):
     """Visit the node from which flow comes along arc j into a node, if that is worth it."""
-    slack = search.log[entry, SLACK] + layer.into[node, j, REDUCED]
-    if via != OWN and node < layer.first_goal:
-        slack -= layer.out[search.log[entry, NODE], via, REDUCED]
-    other = at + layer.into[node, j, OFFSET]
-    if not _may_visit(other, slack, entry, nodes.ahead, search):
+    slack = log[entry, SLACK] + into[node, j, REDUCED]
+    if via != OWN and node < first_goal:
+        slack -= out[log[entry, NODE], via, REDUCED]
+    other = at + into[node, j, OFFSET]
+    if not _may_visit(other, slack, entry, ahead, log, own):
         return False
-    visit(other, layer.into[node, j, OTHER], 0, slack, entry, via, nodes.ahead, search)
+    visit(other, into[node, j, OTHER], 0, slack, entry, via, ahead, log, own)
     return True
 
 
 @njit(nogil=True)
-def step_ahead(entry, layer, nodes, search):
+def step_ahead(entry, out, into, first_goal, all_flow, ahead, log, own):
     """Visit that node after the one under way which is nearest to a destination; False if none is left."""
-    log = search.log
     at, node, slack = log[entry, AT], log[entry, NODE], log[entry, SLACK]
-    flow = nodes.flow[at]
-    if node >= layer.first_goal:  # full: somebody else is to arrive elsewhere
-        for j in range(layer.into.shape[1]):
-            other = at + layer.into[node, j, OFFSET]
+    flow = all_flow[at]
+    if node >= first_goal:  # full: somebody else is to arrive elsewhere
+        for j in range(into.shape[1]):
+            other = at + into[node, j, OFFSET]
             if other == at:
                 break
             if log[entry, TRIED] >> j & 1:
                 continue
             log[entry, TRIED] |= 1 << j
-            if (nodes.flow[other] & 15) - 1 == layer.into[node, j, PLACE]:
-                if _step_against(at, node, j, entry, j, layer, nodes, search):
+            if (all_flow[other] & 15) - 1 == into[node, j, PLACE]:
+                if _step_against(at, node, j, entry, j, out, into, first_goal, all_flow, ahead, log, own):
                     return True
         return False
-    for i in range(layer.out.shape[1] - 1, -1, -1):
-        offset = layer.out[node, i, OFFSET]
+    for i in range(out.shape[1] - 1, -1, -1):
+        offset = out[node, i, OFFSET]
         if offset == 0 or log[entry, TRIED] >> i & 1 or i == (flow & 15) - 1:
             continue
         log[entry, TRIED] |= 1 << i
-        head, other = at + offset, layer.out[node, i, OTHER]
-        left = slack - layer.out[node, i, REDUCED]
-        passes = nodes.flow[head]
-        if passes == 0 or other >= layer.first_goal:
-            if _may_visit(head, left, entry, nodes.ahead, search):
-                visit(head, other, 0, left, entry, i, nodes.ahead, search)
+        head, other = at + offset, out[node, i, OTHER]
+        left = slack - out[node, i, REDUCED]
+        passes = all_flow[head]
+        if passes == 0 or other >= first_goal:
+            if _may_visit(head, left, entry, ahead, log, own):
+                visit(head, other, 0, left, entry, i, ahead, log, own)
                 return True
         elif passes >> 4 != START:
-            if _step_against(head, other, (passes >> 4) - 1, entry, i, layer, nodes, search):
+            if _step_against(
+                head, other, (passes >> 4) - 1, entry, i, out, into, first_goal, all_flow, ahead, log, own
+            ):
                 return True
     j = (flow >> 4) - 1
     if flow == 0 or j == START - 1 or log[entry, TRIED] >> OWN & 1:
         return False
     log[entry, TRIED] |= 1 << OWN
-    return _step_against(at, node, j, entry, OWN, layer, nodes, search)
+    return _step_against(at, node, j, entry, OWN, out, into, first_goal, all_flow, ahead, log, own)
