@@ -45,7 +45,7 @@ def test_a_page_is_what_its_results_make_it(name):
     assert text_of(name) == PAGES[name].page(), "make studies"
 
 
-@pytest.mark.parametrize("name", [*NAMES, "gaps"])
+@pytest.mark.parametrize("name", [*NAMES, "gaps", "queues"])
 def test_results_are_those_of_the_study_beside_them(name):
     study = th.read_study(ROOT / "examples" / "studies" / f"{name}.toml")
     rows = rows_of(name)
