@@ -103,7 +103,7 @@ def test_a_scenario_tells_its_outputs_and_writes_them_beside_itself(house, tmp_p
     assert (tmp_path / "other.csv").read_bytes() == before["w.csv"]
 
 
-@pytest.mark.parametrize("output", ["../p.npz", "/tmp/p.npz", "a/../../p.npz", ""])
+@pytest.mark.parametrize("output", ["../p.npz", "/p.npz", "a/../../p.npz", ""])
 def test_a_scenario_must_not_write_elsewhere(house, tmp_path, output):
     assert run("plan", "house.yaml", *SIZE, *PLACES, "--robots", 2, "--write-scenario", "s.toml").exit_code == 0
     (tmp_path / "s.toml").write_text((tmp_path / "s.toml").read_text() + f'[outputs]\nplan = "{output}"\n')

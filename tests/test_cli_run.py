@@ -68,7 +68,7 @@ def test_pictures_and_movies_show_what_is_known(folder):
     record = th.Trial(th.Scenario(area, exits, [(6, 2)]), sensor=0).run()
     film = RunFilm(record, 100, 300, "")
     frames = list(film.frames())
-    assert len(frames) == film.frame_count
+    assert len(frames) == film.pace.frame_count
     fog = np.array([190, 198, 214])
     seen = [np.count_nonzero((frame == fog).all(axis=-1)) for frame in frames]
     assert seen[0] > seen[-1] and sorted(seen, reverse=True)[0] == seen[0]

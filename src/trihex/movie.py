@@ -95,9 +95,9 @@ def write_animation(
             writer = Mp4Writer(part, frames_per_second)
         with closing(writer):
             for done, frame in enumerate(film.frames(), 1):
-                writer.add(frame, milliseconds if done < film.frame_count else _HOLD)
+                writer.add(frame, milliseconds if done < film.pace.frame_count else _HOLD)
                 if progress:
-                    progress(done, film.frame_count)
+                    progress(done, film.pace.frame_count)
 
 
 def check_range(parameter: str, value: object, least: int, most: int) -> None:
@@ -126,6 +126,36 @@ def _scene(plan: Plan, width: int | None, title: str | None, clock: bool, legend
 
 
 @dataclass(frozen=True)
+class Pace:
+    """How the steps of a plan or run become at most `max_frames` frames, up to `most_substeps` of them a step."""
+
+    steps: int
+    max_frames: int
+    most_substeps: int
+
+    @property
+    def every(self) -> int:
+        """Steps from one that is shown to the next."""
+        return max(1, -(-self.steps // (self.max_frames - 1)))
+
+    @property
+    def substeps(self) -> int:
+        """Frames from one step that is shown to the next."""
+        return max(1, min(self.most_substeps, (self.max_frames - 1) // max(1, self.steps)))
+
+    @property
+    def frame_count(self) -> int:
+        """Number of frames."""
+        return -(-self.steps // self.every) * self.substeps + 1
+
+
+def arrange_frame(scene: Scene) -> Sheet:
+    """Return where the parts of a frame lie: the place of the subtitle is left to the clock."""
+    sheet = arrange(scene)
+    return replace(sheet, words=tuple(line for line in sheet.words if (line.x, line.y) != sheet.subtitle_at))
+
+
+@dataclass(frozen=True)
 class Film:
     """The frames of a movie.
 
@@ -144,25 +174,14 @@ class Film:
     clock: bool
 
     @cached_property
-    def every(self) -> int:
-        """Steps from one that is shown to the next."""
-        return max(1, -(-self.plan.steps // (self.max_frames - 1)))
-
-    @cached_property
-    def substeps(self) -> int:
-        """Frames from one step that is shown to the next."""
-        return max(1, min(_MOST_SUBSTEPS, (self.max_frames - 1) // max(1, self.plan.steps)))
-
-    @property
-    def frame_count(self) -> int:
-        """Number of frames."""
-        return -(-self.plan.steps // self.every) * self.substeps + 1
+    def pace(self) -> Pace:
+        """Which steps are shown."""
+        return Pace(self.plan.steps, self.max_frames, _MOST_SUBSTEPS)
 
     @cached_property
     def sheet(self) -> Sheet:
         """Where the parts of a frame lie."""
-        sheet = arrange(self.scene)
-        return replace(sheet, words=tuple(line for line in sheet.words if (line.x, line.y) != sheet.subtitle_at))
+        return arrange_frame(self.scene)
 
     @cached_property
     def background(self) -> NDArray[np.uint8]:
@@ -186,11 +205,11 @@ class Film:
         while step < plan.steps:
             x, y = centres_of(area, area.layout.site_to_cell(site))
             yield step, x, y
-            next_step = min(step + self.every, plan.steps)
+            next_step = min(step + self.pace.every, plan.steps)
             _follow(plan, step, next_step, site)
-            if self.substeps > 1:
+            if self.pace.substeps > 1:
                 to_x, to_y = centres_of(area, area.layout.site_to_cell(site))
-                for share in (np.arange(1, self.substeps) / self.substeps).tolist():
+                for share in (np.arange(1, self.pace.substeps) / self.pace.substeps).tolist():
                     yield step, x + share * (to_x - x), y + share * (to_y - y)
             step = next_step
         yield step, *centres_of(area, area.layout.site_to_cell(site))
@@ -203,7 +222,7 @@ class Film:
             sets = plan.sets_at(step + 1)
             for robots, colour in ((sets.waiting, WAITING), (sets.filled, MOVING)):
                 groups.append((robots[arrival[robots] >= 0], colour))
-        final = np.flatnonzero((arrival >= 0) & (arrival > step - self.every) & (arrival <= step))
+        final = np.flatnonzero((arrival >= 0) & (arrival > step - self.pace.every) & (arrival <= step))
         return [*groups, (final, FINAL)]
 
     def _frame(

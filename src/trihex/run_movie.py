@@ -14,14 +14,14 @@ from numpy.typing import NDArray
 from trihex import marks as make
 from trihex.formats.files import new_file, suffix_of
 from trihex.gif import GifWriter
-from trihex.movie import SUFFIXES, Progress, check_range
+from trihex.movie import SUFFIXES, Pace, Progress, arrange_frame, check_range
 from trihex.mp4 import Mp4Writer, import_av
 from trihex.palette import DESTINATION, MOVING, PAGE, SERIES, STRANDED, WAITING, Colour
 from trihex.png import paint, paint_disc_marks, paint_discs, write_words
 from trihex.run import BROKEN, GOING, LATE, WAIT, Run
 from trihex.run_picture import CLASS_COLOURS, class_keys, classes_of, run_title
 from trihex.scene import Discs, Key, Mark, Scene, centres_of, scale_for
-from trihex.sheet import MARGIN, TEXT_SIZE, Sheet, Words, arrange, width_of
+from trihex.sheet import MARGIN, TEXT_SIZE, Sheet, Words, width_of
 
 LATE_COLOUR = SERIES[1]
 _SIDE, _MOST_SIDE = 640.0, 900.0
@@ -58,9 +58,9 @@ def write_run_animation(
             writer = Mp4Writer(part, frames_per_second)
         with closing(writer):
             for done, frame in enumerate(film.frames(), 1):
-                writer.add(frame, 10 * round(100 / frames_per_second) if done < film.frame_count else _HOLD)
+                writer.add(frame, 10 * round(100 / frames_per_second) if done < film.pace.frame_count else _HOLD)
                 if progress:
-                    progress(done, film.frame_count)
+                    progress(done, film.pace.frame_count)
 
 
 @dataclass(frozen=True)
@@ -73,19 +73,9 @@ class RunFilm:
     title: str
 
     @cached_property
-    def every(self) -> int:
-        """Steps from one that is shown to the next."""
-        return max(1, -(-self.run.steps // (self.max_frames - 1)))
-
-    @cached_property
-    def substeps(self) -> int:
-        """Frames from one step that is shown to the next."""
-        return max(1, min(_MOST_SUBSTEPS, (self.max_frames - 1) // max(1, self.run.steps)))
-
-    @property
-    def frame_count(self) -> int:
-        """Number of frames."""
-        return -(-self.run.steps // self.every) * self.substeps + 1
+    def pace(self) -> Pace:
+        """Which steps are shown."""
+        return Pace(self.run.steps, self.max_frames, _MOST_SUBSTEPS)
 
     @cached_property
     def scene(self) -> Scene:
@@ -111,8 +101,7 @@ class RunFilm:
     @cached_property
     def sheet(self) -> Sheet:
         """Where the parts of a frame lie."""
-        sheet = arrange(self.scene)
-        return replace(sheet, words=tuple(line for line in sheet.words if (line.x, line.y) != sheet.subtitle_at))
+        return arrange_frame(self.scene)
 
     @cached_property
     def background(self) -> NDArray[np.uint8]:
@@ -138,15 +127,15 @@ class RunFilm:
             if step:
                 barriers, destinations = next(worlds)
                 world = (barriers, destinations)
-            if step % self.every and step != run.steps:
+            if step % self.pace.every and step != run.steps:
                 continue
             classes = classes_of(run, step, *world)
             if not np.array_equal(classes, shown.colour_of_cell):
                 shown = replace(self.scene, colour_of_cell=classes)
                 background = paint(shown, self.sheet)
             later = cells[min(step + 1, run.steps)]
-            for part in range(self.substeps if step < run.steps else 1):
-                yield self._frame(background, step, cells[step], later, part / self.substeps, world[1])
+            for part in range(self.pace.substeps if step < run.steps else 1):
+                yield self._frame(background, step, cells[step], later, part / self.pace.substeps, world[1])
 
     def _groups(self, step: int, cells: NDArray[np.int64]) -> list[tuple[NDArray[np.int64], Colour]]:
         """Return the robots to be seen after `step` by colour."""
