@@ -75,3 +75,16 @@ def test_a_crowd_on_one_side_spreads_round_the_destination():
     assert fcost.total_time < 0.85 * greedy.total_time
     last_steps = {int(plan.steps) for plan in (fcost, greedy)}
     assert max(last_steps) == greedy.steps
+
+
+@pytest.mark.parametrize("rule", ["queue", "aside"])
+@pytest.mark.parametrize("tessellation", ["hexagonal", "triangular"])
+def test_crowds_that_dislike_waiting_do_not_run_from_line_to_line(tessellation, rule):
+    """With w_t three moves, robots that weighed lines at w_t took four times as long as by greedy descent."""
+    area = th.make_random_area(tessellation, 64, 64, density=0.1, seed=3)
+    exits = [(63, y) for y in (8, 24, 40, 56) if not area.barriers[y, 63]]
+    robots = th.random_robots(area, 500, seed=1, avoid=exits)
+    scenario = th.Scenario(area, exits, robots, waiting_cost=30)
+    plan, greedy = make_plan(scenario, "fcost", rule=rule), make_plan(scenario, "greedy")
+    assert plan.total_time < greedy.total_time
+    assert plan.arrival_step_of_robot.sum() < greedy.arrival_step_of_robot.sum()

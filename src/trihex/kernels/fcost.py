@@ -99,13 +99,13 @@ def weigh(
     """Let the robots of `regions` act for `steps` steps after `first_step`; fill a row of actions for each.
 
     `rules` are: what c counts, when to step aside, every how many steps lines are counted anew and a robot whose way
-    is free looks for a better one, w_t, the first vertex move that may not be crossed, the capacity of
+    is free looks for a better one, what a collision costs, w_t, the first vertex move that may not be crossed, the capacity of
     a destination (0: any). Each robot takes the free direction of least Fcost, unless waiting for the best direction
     promises less. In each region one robot, the captain, or who stands at the head of its way, is asked first and
     descends; so a captain arrives in bounded time, and then there is another. `lost` counts what all robots lose: the
     cost of waits, and of moves beyond what they come nearer.
     """
-    counts, aside, period, waiting_cost, first_vertex_move, capacity = rules
+    counts, aside, period, price, waiting_cost, first_vertex_move, capacity = rules
     filled = 0
     loss = 0
     waiting_for_other = np.empty(len(listed), np.int32)
@@ -173,7 +173,7 @@ def weigh(
                             if its_slot < low or its_slot >= high:
                                 continue
                             collisions = (line[its_slot + 1] & (LEAD - 1)) - (its_slot + 1 == own_slot)
-                            fcost += waiting_cost * collisions
+                            fcost += price * collisions
                         elif its_slot < low_end or its_slot > high_end:
                             continue
                         best = min(best, fcost)
@@ -219,7 +219,7 @@ def weigh(
                             if its_slot < low or its_slot >= high:
                                 continue
                             collisions = (line[its_slot + 1] & (LEAD - 1)) - (its_slot + 1 == own_slot)
-                            fcost += waiting_cost * collisions
+                            fcost += price * collisions
                             best = min(best, fcost)
                             if fcost >= least or robot_at[target]:
                                 continue

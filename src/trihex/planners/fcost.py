@@ -37,8 +37,8 @@ def plan_fcost(n_scheme: NScheme, *, rule: str = "best", progress: Progress | No
     rule : {"best", "paper", "queue", "aside"}
         What c is. "paper": the number of other robots whose shortest path meets the path that starts with a direction
         (same cell, same step); the first robot of each branch of the D-scheme descends. "queue": the length of the line
-        that they have formed when the robot gets there, and a robot that would wait may step to a cell no farther away
-        if that costs no more. "aside": the same, and a blocked robot always steps to such a cell unless it has just
+        that they have formed when the robot gets there, each place at w_t or the cheapest move, whichever is less; a
+        robot that would wait may step to a cell no farther away if that costs no more. "aside": the same, and a blocked robot always steps to such a cell unless it has just
         left it. "best": "aside" or greedy descent, whichever takes less total time, and up to two million robot-steps
         "queue", too.
     progress : callable, optional
@@ -148,7 +148,12 @@ def _simulated(
     aside = {"paper": kernels.STAY, "queue": kernels.WORTH, "aside": kernels.ALWAYS}[rule]
     counts = kernels.MEETINGS if rule == "paper" else kernels.QUEUE
     period = 1 if crowd.going <= _MANY else _PERIOD
-    rules = np.array([counts, aside, period, scenario.waiting_cost, *crowd.rules], dtype=np.int64)
+    # Who would have to wait for others can go to and fro instead, so a place in a line is worth no more than a move. At
+    # w_t all robots would run from line to line: with w_t three moves, plans took up to four times as long as by greedy.
+    price = w_t = scenario.waiting_cost
+    if counts == kernels.QUEUE:
+        price = min(w_t, int(tessellation.cost_of_direction.min()))
+    rules = np.array([counts, aside, period, price, w_t, *crowd.rules], dtype=np.int64)
     many = slots.first_slot[-1] + 1
     count = np.bincount(slots.slot_of_site[crowd.site_of_robot[1:]], minlength=many).astype(np.int32)
     tables = (
