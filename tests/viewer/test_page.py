@@ -1,6 +1,7 @@
 """A plan as one HTML file that plays without a network."""
 
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,7 +12,10 @@ from tests.viewer.pages import Shown, is_near
 from trihex import palette
 from trihex.cli import main
 from trihex.planners import make_plan
+from trihex.viewer import script
+from trihex.viewer.script import module, parts, source_of
 
+WEB = Path(script.__file__).parent / "web"
 NAME = "</script><script>document.title='evil'</script>"
 
 
@@ -115,3 +119,17 @@ def test_the_command_writes_it(tmp_path, plan):
     assert done.exit_code == 2 and "--beside is for pages (.html)" in done.output
     with pytest.raises(th.FormatError, match="suffix of a page"):
         th.write_page(plan, tmp_path / "plan.pdf")
+
+
+def test_the_module_is_joined_from_files_that_import_from_those_before_them():
+    exported = {}
+    for name in parts():
+        text = source_of(name)
+        for words, other in re.findall(r'^import \{ ([^}]*) \} from "\./([\w-]+\.js)";$', text, re.MULTILINE):
+            assert {word.strip() for word in words.split(",")} <= exported[other], (name, other)
+        assert text.count("\n") <= 400 and text.startswith("// ")
+        given = re.findall(r"^export (?:async )?(?:class|function|const) (\w+)", text, re.MULTILINE)
+        given += re.findall(r"(?<=, )(\w+) = \d", "".join(re.findall(r"^export const .*", text, re.MULTILINE)))
+        assert not any(word in names for word in given for names in exported.values()), name
+        exported[name] = set(given)
+    assert "\nimport " not in module() and set(parts()) == {path.name for path in WEB.glob("*.js")}

@@ -6,10 +6,8 @@ import gzip
 import json
 import os
 from base64 import b64encode
-from functools import cache
 from hashlib import sha256
 from html import escape
-from importlib.resources import files
 from string import Template
 from typing import Any
 
@@ -21,6 +19,7 @@ from trihex.plan import Plan
 from trihex.report import Report, make_report
 from trihex.schemes import make_n_scheme
 from trihex.viewer.bundle import Bundle, encode
+from trihex.viewer.script import module, source_of
 from trihex.viewer.show import show_plan
 
 SUFFIXES = (".html",)
@@ -28,12 +27,6 @@ _POLICY = (
     "default-src 'none'; script-src {script}; style-src {style}; img-src data: blob:; connect-src {connect}; "
     "base-uri 'none'; form-action 'none'"
 )
-
-
-@cache
-def source_of(name: str) -> str:
-    """Return the text of ``viewer.js``, ``viewer.css`` or ``viewer.html``."""
-    return (files("trihex.viewer") / "web" / name).read_text(encoding="utf-8")
 
 
 def settings_of(**more: Any) -> dict[str, Any]:
@@ -58,7 +51,7 @@ def page_with(settings: dict[str, Any], first: Bundle | None, title: str, *, is_
     is_alone : bool
         Whether the page holds the module and its policy itself, and asks nobody for anything.
     """
-    style, script = source_of("viewer.css"), source_of("viewer.js")
+    style, script = source_of("viewer.css"), module()
     policy = _POLICY.format(
         script=_hash_of(script) if is_alone else "'self'",
         style=_hash_of(style),
@@ -66,7 +59,7 @@ def page_with(settings: dict[str, Any], first: Bundle | None, title: str, *, is_
     )
     content = "" if first is None else b64encode(gzip.compress(encode(*first), 6, mtime=0)).decode()
     head = f'<meta http-equiv="Content-Security-Policy" content="{policy}">' if is_alone else ""
-    module = (
+    element = (
         f'<script type="module">{script}</script>' if is_alone else '<script type="module" src="viewer.js"></script>'
     )
     html = Template(source_of("viewer.html")).substitute(
@@ -75,7 +68,7 @@ def page_with(settings: dict[str, Any], first: Bundle | None, title: str, *, is_
         style=style,
         settings=json.dumps(settings).replace("<", "\\u003c"),
         content=content,
-        module=module,
+        module=element,
     )
     return html, policy
 

@@ -21,7 +21,8 @@ from trihex.errors import MissingExtraError
 from trihex.viewer.bundle import Bundle
 from trihex.viewer.choices import choices
 from trihex.viewer.desk import Desk
-from trihex.viewer.page import page_with, settings_of, source_of
+from trihex.viewer.page import page_with, settings_of
+from trihex.viewer.script import module
 
 if TYPE_CHECKING:
     from starlette.requests import Request
@@ -152,8 +153,8 @@ def _routes(desk: Desk, first: Bundle | None, settings: dict[str, Any], token: s
     async def page(request: Request) -> Response:
         return HTMLResponse(html, headers={"Content-Security-Policy": f"{policy}; frame-ancestors 'none'"})
 
-    async def module(request: Request) -> Response:
-        return Response(source_of("viewer.js"), media_type="text/javascript")
+    async def script(request: Request) -> Response:
+        return Response(module(), media_type="text/javascript")
 
     async def ask(request: Request) -> Response:
         body = await request.body()
@@ -162,7 +163,7 @@ def _routes(desk: Desk, first: Bundle | None, settings: dict[str, Any], token: s
     return Router(
         routes=[
             Route(f"/{token}/", page, methods=["GET"]),
-            Route(f"/{token}/viewer.js", module, methods=["GET"]),
+            Route(f"/{token}/viewer.js", script, methods=["GET"]),
             Route(f"/{token}/ask", ask, methods=["POST"]),
         ]
     )

@@ -14,7 +14,8 @@ from trihex.scenario import Scenario
 from trihex.viewer.bundle import encode
 from trihex.viewer.choices import choices
 from trihex.viewer.desk import Desk
-from trihex.viewer.page import settings_of, source_of
+from trihex.viewer.page import settings_of
+from trihex.viewer.script import module, source_of
 
 
 def make_widget(record: Area | Scenario | Plan | Draft | None = None, *, height: int = 720) -> Any:
@@ -49,7 +50,7 @@ def _widget_class() -> Any:
     class Viewer(anywidget.AnyWidget):
         """The viewer: traits tell the page what to show first, messages ask the desk."""
 
-        _esm = source_of("viewer.js")
+        _esm = module()
         _css = source_of("viewer.css")
         _settings = traitlets.Dict().tag(sync=True)
         _first = traitlets.Bytes(b"").tag(sync=True)

@@ -1,0 +1,17 @@
+// Colours: as bytes, as text, mixed.
+
+export const DARK = { free: [43, 47, 54], barrier: [146, 152, 162], unreached: [84, 82, 90], moving: [86, 180, 233], stranded: [250, 250, 250], page: [24, 26, 30] };
+export const LIGHT = { page: [233, 234, 236] };
+
+export const packed = ([r, g, b]) => (255 << 24) | (b << 16) | (g << 8) | r;
+export const css = ([r, g, b], a = 1) => `rgba(${r},${g},${b},${a})`;
+export const isLight = ([r, g, b]) => 0.299 * r + 0.587 * g + 0.114 * b > 140;
+
+// Mix two packed colours; share 0..255 of the second.
+export function mix(one, other, share) {
+  const keep = 255 - share;
+  const r = ((one & 255) * keep + (other & 255) * share) / 255;
+  const g = (((one >> 8) & 255) * keep + ((other >> 8) & 255) * share) / 255;
+  const b = (((one >> 16) & 255) * keep + ((other >> 16) & 255) * share) / 255;
+  return ((255 << 24) | (Math.round(b) << 16) | (Math.round(g) << 8) | Math.round(r)) >>> 0;
+}

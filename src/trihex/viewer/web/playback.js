@@ -1,0 +1,153 @@
+// Playback: where robots are between two steps, and the set that each belongs to.
+
+import { R3 } from "./shapes.js";
+import { NOT_REACHED, centreOf } from "./documents.js";
+
+export const WAIT = 255, JUMP = 254;
+
+export const HIDDEN = 0, MOVING = 1, WAITING = 2, FINAL = 3, STRANDED = 4;
+
+// Where the robots of a document stand before there is a plan.
+export class Still {
+  constructor(doc, distance) {
+    const n = doc.robots.length;
+    this.steps = 0;
+    this.count = n;
+    this.x0 = new Float32Array(n);
+    this.y0 = new Float32Array(n);
+    this.state = new Uint8Array(n).fill(MOVING);
+    for (let r = 0; r < n; r++) {
+      [this.x0[r], this.y0[r]] = centreOf(doc, doc.robots[r]);
+      if (distance && distance[doc.robots[r]] === NOT_REACHED) this.state[r] = STRANDED;
+    }
+    this.x1 = this.x0;
+    this.y1 = this.y0;
+  }
+  seek() {}
+}
+
+// Robots of a plan between `step` and the next: from (x0, y0) to (x1, y1), and the set that each belongs to.
+export class Playback {
+  constructor({ header, arrays }, doc) {
+    Object.assign(this, { header, doc, steps: header.steps, count: doc.robots.length });
+    this.actions = arrays.actions;
+    this.first = arrays.first_action;
+    this.hasArrived = arrays.has_arrived;
+    this.jumpAt = arrays.jump_at;
+    this.jumpTo = arrays.jump_to;
+    this.curves = {};
+    for (const name of ["moving", "waiting", "arrived", "spent", "least_total"]) this.curves[name] = arrays[`${name}_by_step`];
+    this.distance = arrays.distance;
+    const { origin, pitch, offsets } = header.layout;
+    this.offsets = offsets.map((row) => Int32Array.from(row));
+    const start = Int32Array.from(doc.robots, (cell) => origin + Math.floor(cell / doc.width) * pitch + (cell % doc.width));
+    // Every so many steps one is kept: as many as fit into some 64 MB.
+    this.every = Math.max(32, Math.ceil((this.steps * this.count) / 2 ** 24));
+    this.kept = [start];
+    this.site = start.slice();
+    this.next = new Int32Array(this.count);
+    for (const name of ["x0", "y0", "x1", "y1"]) this[name] = new Float32Array(this.count);
+    this.state = new Uint8Array(this.count);
+    this.step = 0;
+    this.#locate(this.site, this.x0, this.y0);
+    this.#lookAhead();
+  }
+
+  seek(step) {
+    step = Math.max(0, Math.min(step, this.steps));
+    if (step === this.step) return;
+    const isNext = this.step + 1 === step;
+    if (step < this.step || step - this.step > this.every) {
+      const near = Math.min(Math.floor(step / this.every), this.kept.length - 1);
+      if (step < this.step || near * this.every > this.step) {
+        this.step = near * this.every;
+        this.site.set(this.kept[near]);
+        this.#advance(this.site, this.step, this.next);
+      }
+    }
+    while (this.step < step) {
+      [this.site, this.next] = [this.next, this.site];
+      this.step++;
+      if (this.step % this.every === 0 && this.kept.length === this.step / this.every) this.kept.push(this.site.slice());
+      if (this.step < step) this.#advance(this.site, this.step, this.next);
+    }
+    if (isNext) [this.x0, this.y0, this.x1, this.y1] = [this.x1, this.y1, this.x0, this.y0];
+    else this.#locate(this.site, this.x0, this.y0);
+    this.#lookAhead();
+  }
+
+  #lookAhead() {
+    this.#advance(this.site, this.step, this.next);
+    this.#locate(this.next, this.x1, this.y1);
+    const { first, actions, hasArrived, state, step } = this;
+    for (let r = 0; r < this.count; r++) {
+      const length = first[r + 1] - first[r];
+      if (length <= step) state[r] = hasArrived[r] ? HIDDEN : STRANDED;
+      else if (hasArrived[r] && length === step + 1) state[r] = FINAL;
+      else state[r] = actions[first[r] + step] === WAIT ? WAITING : MOVING;
+    }
+  }
+
+  #advance(site, step, out) {
+    const { first, actions, offsets } = this;
+    const [even, odd] = offsets;
+    for (let r = 0; r < this.count; r++) {
+      const i = first[r] + step, at = site[r];
+      if (i >= first[r + 1]) out[r] = at;
+      else if (actions[i] < JUMP) out[r] = at + (at & 1 ? odd : even)[actions[i]];
+      else out[r] = actions[i] === WAIT ? at : this.jumpTo[this.#jumpOf(i)];
+    }
+  }
+
+  #jumpOf(i) {
+    let low = 0, high = this.jumpAt.length;
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (this.jumpAt[middle] < i) low = middle + 1;
+      else high = middle;
+    }
+    return low;
+  }
+
+  #locate(site, x, y) {
+    const { origin, pitch } = this.header.layout;
+    const shape = this.doc.header.tessellation;
+    for (let r = 0; r < this.count; r++) {
+      const cy = ((site[r] - origin) / pitch) | 0, cx = site[r] - origin - cy * pitch;
+      if (shape === "hexagonal") {
+        x[r] = (1.5 * cx + 1) / R3;
+        y[r] = cy + 0.5 + 0.5 * (cx & 1);
+      } else if (shape === "triangular") {
+        x[r] = ((cx + 1) * R3) / 2;
+        y[r] = 1.5 * cy + 1 - 0.5 * ((cx + cy) & 1);
+      } else {
+        x[r] = cx + 0.5;
+        y[r] = cy + 0.5;
+      }
+    }
+  }
+
+  // Cells and times of one robot, from its start to its last action.
+  robot(r) {
+    const { origin, pitch, costs, names } = this.header.layout;
+    const wait = this.header.summary.waiting_cost;
+    const cellOf = (site) => {
+      const y = Math.floor((site - origin) / pitch);
+      return y * this.doc.width + (site - origin - y * pitch);
+    };
+    let site = this.kept[0][r], d = 0, w = 0;
+    const rows = [{ cell: cellOf(site), d, w, action: "start" }];
+    for (let i = this.first[r]; i < this.first[r + 1]; i++) {
+      const action = this.actions[i], parity = site & 1;
+      if (action === WAIT) w += wait;
+      else if (action === JUMP) site = this.jumpTo[this.#jumpOf(i)];
+      else {
+        d += costs[action];
+        site += this.offsets[parity][action];
+      }
+      const name = action === WAIT ? "wait" : action === JUMP ? "jump" : names[parity][action];
+      rows.push({ cell: cellOf(site), d, w, action: name });
+    }
+    return { rows, hasArrived: !!this.hasArrived[r] };
+  }
+}

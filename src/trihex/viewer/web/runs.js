@@ -1,0 +1,12 @@
+// Runs: plans that the page holds.
+
+import { documentOf } from "./documents.js";
+import { Playback } from "./playback.js";
+
+export function runOf({ header, arrays }, doc = null) {
+  const place = doc ?? documentOf(header.document, arrays);
+  return { ...header, playback: new Playback({ header, arrays }, place), doc: place };
+}
+
+export const sameField = (one, other) => one === other || (one.barriers === other.barriers && one.destinations === other.destinations &&
+  ["tessellation", "neighbourhood", "costs", "corners"].every((name) => one.header[name] === other.header[name]));

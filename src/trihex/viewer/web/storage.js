@@ -1,0 +1,16 @@
+// Storage: what stays on this computer.
+
+import { h } from "./words.js";
+
+export function stored(key) {
+  try { return localStorage.getItem(key); } catch { return null; }
+}
+
+export function download(name, content) {
+  const url = URL.createObjectURL(new Blob([content]));
+  const link = h("a", { href: url, download: name });
+  document.body.append(link);
+  link.click();
+  link.remove();
+  setTimeout(() => URL.revokeObjectURL(url), 10000);
+}
