@@ -159,3 +159,26 @@ def test_events_that_make_no_sense_and_wrong_delays():
             Event(**wrong)
     with pytest.raises(th.ExecutionError, match="delay must be a number from 0 to below 1"):
         Trial(corridor([(0, 0)]), delay=1.0)
+
+
+def test_what_is_caught_up_with_happens_before_the_next_step_and_changes_nothing_else():
+    scenario = corridor([(0, 0), (1, 0)], rows=2)
+    events = [Event(2, "barrier", cell=(4, 0)), Event(2, "leave", robot=1), Event(3, "join", cell=(0, 1))]
+    hasty, patient = Trial(scenario, events=events), Trial(scenario, events=events)
+    while not patient.is_over:
+        hasty.catch_up()
+        hasty.step()
+        patient.step()
+    assert hasty.record() == patient.record() and hasty.repairs == patient.repairs == (1, 10)
+    # What happens after the last step is part of the run as well.
+    for kind, cell in (("barrier", (2, 0)), ("clear", (2, 0)), ("join", (2, 0)), ("close", (6, 0))):
+        hasty.tell(Event(1, kind, cell=cell))
+    hasty.catch_up()
+    run = hasty.record()
+    assert [str(one) for one in run.occurrences[-2:]] == [
+        f"step {run.steps + 1}: robot joins at (2, 0)",
+        f"step {run.steps + 1}: destination closes at (6, 0)",
+    ]
+    assert audit_run(run).is_clean and not run.last_world[1].size and run.last_world[0][0, 4]
+    assert run.state_of_robot.tolist() == [ARRIVED, LEFT, ARRIVED, GOING]
+    assert hasty.barriers.sum() == 1 and not hasty.destinations.size and hasty.known.all()

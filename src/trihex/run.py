@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -129,9 +130,17 @@ class Run(Record):
 
     def worlds(self) -> Iterator[tuple[NDArray[np.bool_], NDArray[np.int64]]]:
         """Yield barriers (height, width) and destinations in step 1, 2, ..., `steps`; do not write to them."""
+        return self._worlds(self.steps)
+
+    @property
+    def last_world(self) -> tuple[NDArray[np.bool_], NDArray[np.int64]]:
+        """Barriers (height, width) and destinations after all that has happened, even if no step has followed."""
+        return deque(self._worlds(self.steps + 1), 1).pop()
+
+    def _worlds(self, steps: int) -> Iterator[tuple[NDArray[np.bool_], NDArray[np.int64]]]:
         barriers, destinations = self.scenario.area.barriers.copy(), set(self.scenario.destinations.tolist())
         cells, changes, at = np.array(sorted(destinations)), [o for o in self.occurrences if o.is_accepted], 0
-        for step in range(1, self.steps + 1):
+        for step in range(1, steps + 1):
             while at < len(changes) and changes[at].event.step <= step:
                 one, at = changes[at], at + 1
                 barriers.flat[list(one.blocked)], barriers.flat[list(one.freed)] = True, False

@@ -192,14 +192,16 @@ def _events(run: Run) -> Iterator[Conflict]:
     """Find events that put a barrier or a robot where a robot stood."""
     cells = list(run.cells_by_step())
     area, robots = run.scenario.area, iter(np.flatnonzero(run.joined >= 0)[run.scenario.robot_count :].tolist())
+    count = run.scenario.robot_count  # of robots so far: those that join later in the same step are not there yet
     for one in run.occurrences:
         if not one.is_accepted:
             continue
         event, before = one.event, cells[min(one.event.step - 1, run.steps)]
         own = next(robots) if event.kind == "join" else event.robot
+        count += event.kind == "join"
         wanted = [run.robots[own]] if event.kind == "join" and own is not None else list(one.blocked)
         for cell in wanted:
-            there = [r for r in np.flatnonzero(before == cell).tolist() if r != own]
+            there = [r for r in np.flatnonzero(before[:count] == cell).tolist() if r != own]
             if there:
                 text = f"event {event.kind!r} at {area.name_of_cell(int(cell))}, where robot {there[0]} stands"
                 yield Conflict("event", event.step, (there[0],), (_xy(area, int(cell)),), text)
@@ -208,7 +210,7 @@ def _events(run: Run) -> Iterator[Conflict]:
 def _ends(run: Run) -> Iterator[Conflict]:
     """Find robots that still go though they could arrive, and those that are said to be where they are not."""
     area, kinds = run.scenario.area, {"leave": LEFT, "break": BROKEN}
-    barriers, destinations = deque(run.worlds(), 1).pop() if run.steps else (area.barriers, run.scenario.destinations)
+    barriers, destinations = run.last_world
     cells = deque(run.cells_by_step(), 1).pop()
     going = np.flatnonzero((run.state_of_robot == GOING) & (cells >= 0) & (cells < area.cell_count))
     going = going[~barriers.flat[cells[going]]]  # who left the area or stands on a barrier is charged with that

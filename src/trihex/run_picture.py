@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections import deque
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -53,9 +51,8 @@ def picture_of_run(run: Run, *, width: int | None = None, title: str | None = No
     The parameters are those of `trihex.picture.picture_of_area`.
     """
     area, scale = run.scenario.area, scale_for(run.scenario.area, width)
-    world = deque(run.worlds(), 1).pop() if run.steps else (area.barriers, run.scenario.destinations)
     first = len(CLASS_COLOURS)
-    cells = classes_of(run, run.steps, *world)
+    cells = classes_of(run, run.steps, *run.last_world)
     last = max(1, int(run.known_since.max(initial=0)))
     shades = palette.distance_ramp(_SHADES)
     is_shaded = (cells == 0) & (run.known_since >= 0)

@@ -73,10 +73,9 @@ class Trial:
         self.area, self.layout = scenario.area, scenario.area.layout
         known = scenario if sensor is None else _unknown(scenario)
         self.execution = Execution(known, planner, aside=aside, replan=replan, budget=budget)
-        self._barriers = scenario.area.barriers.copy()
         self._destinations = set(scenario.destinations.tolist())
         self._blocked = np.ones(self.layout.size, dtype=bool)
-        self._inner(self._blocked)[:] = self._barriers
+        self._inner(self._blocked)[:] = scenario.area.barriers
         self._since = np.full(self.layout.size, -1 if sensor is not None else 0, dtype=np.int32)
         self._events = sorted(events, key=lambda event: event.step)
         self._occurrences: list[Occurrence] = []
@@ -109,6 +108,40 @@ class Trial:
         """Whether no robot can go on, now or after an event that is known already."""
         return self.execution.is_over and not self._events
 
+    @property
+    def occurrences(self) -> tuple[Occurrence, ...]:
+        """What became of each event so far, in order."""
+        return tuple(self._occurrences)
+
+    @property
+    def barriers(self) -> NDArray[np.bool_]:
+        """Where barriers are now, whoever knows of them, shape (height, width)."""
+        return self._inner(self._blocked).copy()
+
+    @property
+    def destinations(self) -> NDArray[np.int64]:
+        """Numbers of the cells that are destinations now, ascending."""
+        return np.array(sorted(self._destinations), dtype=np.int64)
+
+    @property
+    def known(self) -> NDArray[np.bool_]:
+        """Which cells robots know, shape (height, width)."""
+        return np.asarray(self._inner(self._since) >= 0)
+
+    @property
+    def repairs(self) -> tuple[int, int]:
+        """Repairs of the field so far, and the cells that they touched."""
+        repairs, cells = (sum(column) for column in zip(*self._touched, self._repairs, strict=True))
+        return repairs, cells
+
+    def catch_up(self) -> None:
+        """Let what is due before the next step happen at once, for who shows it; robots then go on just the same."""
+        happened = len(self._occurrences)
+        while self._events and self._events[0].step <= self.steps_done + 1:
+            self._occurrences.append(self._happen(self._events.pop(0)))
+        if len(self._occurrences) > happened:
+            self._note_ends(self.steps_done)
+
     def tell(self, event: Event) -> None:
         """Add an event; if its step is over, it happens in the next one."""
         step = max(event.step, self.steps_done + 1)
@@ -135,9 +168,7 @@ class Trial:
         """Do one step, and return the action of each robot: its own, or those given (see `resume_trial`)."""
         begin = perf_counter()
         step = self.steps_done + 1
-        self._repairs = [0, 0]
-        while self._events and self._events[0].step <= step:
-            self._occurrences.append(self._happen(self._events.pop(0)))
+        self.catch_up()
         self._look(step)
         late = self._late(step)
         self._note_ends(step - 1)
@@ -151,6 +182,7 @@ class Trial:
         action[late[is_going[late]]] = LATE
         self._actions.append(action)
         self._touched.append((self._repairs[0], self._repairs[1]))
+        self._repairs = [0, 0]
         self._note_ends(step)
         self.seconds.append(perf_counter() - begin)
         return action

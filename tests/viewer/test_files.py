@@ -83,9 +83,13 @@ def test_every_format_is_saved(tmp_path, what):
         # Metres go into what can carry them, and are demanded by waypoints.
         needs_metres = what == "waypoints" or suffix == ".toml"
         shown = desk.show(th.make_plan(place if needs_metres else cells, "greedy"))
-        plan = shown.header["plan"] if EXPORTS[what][1] else None
+        plan = shown.header["plan"] if EXPORTS[what][1] == "plan" else None
         document = {"document": shown.header["document"], "plan": plan}
         arrays = {name: shown.arrays[name] for name in ("barriers", "destinations", "robots")}
+        if EXPORTS[what][1] == "run":
+            live = {"op": "live", "planner": "greedy", "document": shown.header["document"]}
+            document["live"] = ask(desk, live, arrays).header["live"]
+            ask(desk, {"op": "advance", "live": document["live"], "steps": 3})
         name = f"saved{suffix}"
         answer = ask(desk, {"op": "save", "what": what, "name": name, "in_folder": True, **document}, arrays)
         assert answer.header["saved"] == name and (tmp_path / name).stat().st_size > 0

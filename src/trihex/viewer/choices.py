@@ -25,6 +25,6 @@ def choices() -> dict[str, Any]:
         "corners": CORNERS,
         "generators": ["empty", *GENERATORS],
         "planners": {name: options_of(name) for name in PLANNERS},
-        "exports": {what: {"suffixes": suffixes, "plan": plan} for what, (suffixes, plan) in EXPORTS.items()},
+        "exports": {what: {"suffixes": suffixes, "needs": needs} for what, (suffixes, needs) in EXPORTS.items()},
         "suffixes": SUFFIXES,
     }

@@ -29,8 +29,9 @@ from trihex.formats.files import read_bytes
 from trihex.formats.recognise import format_of
 from trihex.generators import GENERATORS
 from trihex.plan import Plan
-from trihex.planners import make_plan
+from trihex.planners import PLANNERS, make_plan
 from trihex.report import Report, make_report
+from trihex.run import Run
 from trihex.scenario import Scenario, random_robots
 from trihex.schemes import NScheme, make_d_scheme, make_n_scheme
 from trihex.viewer import requests as ask
@@ -38,11 +39,13 @@ from trihex.viewer.bundle import Bundle, decode, encode
 from trihex.viewer.document import document_of, draft_of_document
 from trihex.viewer.exports import export
 from trihex.viewer.folder import Folder, references_of
+from trihex.viewer.live import Live
 from trihex.viewer.show import show_plan
 
 # The automaton looks at all neighbours of all cells in every generation.
 MAX_AUTOMATON_CELLS = 2**20
 _MOST_PLANS = 8
+_MOST_LIVES = 2
 _MOST_ACTIONS = 2**29
 _PLACE = ("cell_size", "robot_radius", "resolution", "threshold", "invert", "unknown")
 _TICK = 0.1  # seconds between two frames of progress
@@ -69,7 +72,8 @@ class Desk:
         self.folder = folder
         self._reports: OrderedDict[str, Report] = OrderedDict()
         self._n_schemes: deque[NScheme] = deque(maxlen=4)
-        self._plans_made = 0
+        self._lives: OrderedDict[str, Live] = OrderedDict()
+        self._plans_made = self._runs_made = 0
 
     def answer(self, request: bytes, send: Send, is_cancelled: Callable[[], bool] = lambda: False) -> None:
         """Answer a request by calling `send` with frames; every kind of failure becomes a frame, too."""
@@ -205,8 +209,37 @@ class Desk:
         seconds["plan"] = perf_counter() - begin
         return self._shown(plan, seconds, call)
 
+    def _live(self, request: ask.Live, call: _Call) -> Bundle:
+        check_choice("planner", request.planner, PLANNERS, FormatError)
+        scenario = call.scenario(request)
+        live = Live(scenario, request)
+        self._runs_made += 1
+        name = f"live-{self._runs_made}"
+        self._lives[name] = live
+        while len(self._lives) > _MOST_LIVES:
+            self._lives.popitem(last=False)
+        first = live.advance(ask.Advance(op="advance", live=name, steps=0))
+        edge, wait = scenario.area.tessellation.edge_cost, int(scenario.waiting_cost)
+        return Bundle({"live": name, "edge_cost": edge, "waiting_cost": wait, **first.header}, first.arrays)
+
+    def _advance(self, request: ask.Advance, call: _Call) -> Bundle:
+        return self._live_run(request.live).advance(request)
+
+    def _judge(self, request: ask.Judge, call: _Call) -> Bundle:
+        report = self._live_run(request.live).judge()
+        return Bundle({"summary": report.as_dict(), "conflicts": [str(one) for one in report.audit.conflicts[:5]]}, {})
+
+    def _live_run(self, name: str) -> Live:
+        if name not in self._lives:
+            raise FormatError("this live run is not kept any more: run again")
+        return self._lives[name]
+
     def _save(self, request: ask.Save, call: _Call) -> Bundle:
-        record: Draft | Report = call.draft(request) if request.plan is None else self._report(request.plan)
+        record: Draft | Report | Run
+        if request.live is not None:
+            record = self._live_run(request.live).record()
+        else:
+            record = call.draft(request) if request.plan is None else self._report(request.plan)
         beside = None if request.beside is None else self._report(request.beside)
         progress = call.progress("saving")
         if request.in_folder:

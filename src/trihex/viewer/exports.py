@@ -20,51 +20,63 @@ from trihex.formats import (
 from trihex.formats.draft import Draft, draft_of
 from trihex.formats.field_npy import write_field
 from trihex.formats.report_json import write_report
+from trihex.formats.run_npz import write_run
 from trihex.movie import SUFFIXES as MOVIE_SUFFIXES
 from trihex.movie import write_animation
 from trihex.picture import SUFFIXES as PICTURE_SUFFIXES
 from trihex.picture import picture_of_area, picture_of_plan
 from trihex.report import Report
+from trihex.run import Run
+from trihex.run_movie import write_run_animation
+from trihex.run_picture import picture_of_run
 from trihex.schemes import make_n_scheme
 from trihex.viewer.page import SUFFIXES as PAGE_SUFFIXES
 from trihex.viewer.page import write_report_page
 
-# What, its suffixes, and whether it takes a plan.
-EXPORTS: dict[str, tuple[tuple[str, ...], bool]] = {
-    "scenario": (SCENARIO_SUFFIXES, False),
-    "area": (AREA_SUFFIXES, False),
-    "field": ((".npy",), False),
-    "starts": ((".csv",), False),
-    "plan": (PLAN_SUFFIXES, True),
-    "page": (PAGE_SUFFIXES, True),
-    "movie": (MOVIE_SUFFIXES, True),
-    "picture": (PICTURE_SUFFIXES, False),
-    "waypoints": (WAYPOINT_SUFFIXES, True),
-    "summary": ((".json",), True),
+# What, its suffixes, and what it is made of: a "draft", a "plan" or a live "run".
+EXPORTS: dict[str, tuple[tuple[str, ...], str]] = {
+    "scenario": (SCENARIO_SUFFIXES, "draft"),
+    "area": (AREA_SUFFIXES, "draft"),
+    "field": ((".npy",), "draft"),
+    "starts": ((".csv",), "draft"),
+    "plan": (PLAN_SUFFIXES, "plan"),
+    "page": (PAGE_SUFFIXES, "plan"),
+    "movie": (MOVIE_SUFFIXES, "plan"),
+    "picture": (PICTURE_SUFFIXES, "draft"),
+    "waypoints": (WAYPOINT_SUFFIXES, "plan"),
+    "summary": ((".json",), "plan"),
+    "run": ((".npz",), "run"),
+    "run_movie": (MOVIE_SUFFIXES, "run"),
+    "run_picture": (PICTURE_SUFFIXES, "run"),
 }
 
 
 def export(
-    record: Draft | Report,
+    record: Draft | Report | Run,
     what: str,
     path: Path,
     planner: str | None,
     progress: Callable[[int, int], None],
     beside: Report | None = None,
 ) -> None:
-    """Write `what` of a draft or of a plan and its report; a page shows the plan `beside` it as well.
+    """Write `what` of a draft, of a plan and its report, or of a run; a page shows the plan `beside` it as well.
 
     Raises
     ------
     FormatError
-        If there is no such thing, or it takes a plan and there is none.
+        If there is no such thing, or it takes a plan or a run and there is none.
     TrihexError, OSError
         If it cannot be written.
     """
     check_choice("what", what, EXPORTS, FormatError)
+    needs = EXPORTS[what][1]
+    if isinstance(record, Run) or needs == "run":
+        if not isinstance(record, Run) or needs != "run":
+            raise FormatError(f"a {what} is not made of {'a live run' if isinstance(record, Run) else 'a plan'}")
+        return _export_run(record, what, path, progress)
     report = record if isinstance(record, Report) else None
     draft = draft_of(record.plan.scenario) if isinstance(record, Report) else record
-    if report is None and EXPORTS[what][1]:
+    if report is None and needs == "plan":
         raise FormatError(f"to save a {what} there must be a plan: plan first")
     if what == "scenario":
         write_scenario(draft.complete(), path, planner=planner or "")
@@ -80,6 +92,15 @@ def export(
         (picture_of_plan(report.plan) if report else start).save(path)
     elif report is not None:
         _export_plan(report, what, path, progress, beside)
+
+
+def _export_run(run: Run, what: str, path: Path, progress: Callable[[int, int], None]) -> None:
+    if what == "run":
+        write_run(run, path, progress=progress)
+    elif what == "run_movie":
+        write_run_animation(run, path, progress=progress)
+    else:
+        picture_of_run(run).save(path)
 
 
 def _export_plan(

@@ -17,6 +17,7 @@ from trihex import palette
 from trihex.formats.files import new_file, suffix_of
 from trihex.plan import Plan
 from trihex.report import Report, make_report
+from trihex.run_picture import FOG, FOG_BARRIER
 from trihex.schemes import make_n_scheme
 from trihex.viewer.bundle import Bundle, encode
 from trihex.viewer.script import module, source_of
@@ -35,7 +36,8 @@ def settings_of(**more: Any) -> dict[str, Any]:
     ramp = palette.distance_ramp(256).tolist()
     series = [list(colour) for colour in palette.SERIES]
     colours = {name.lower(): list(getattr(palette, name)) for name in names}
-    return {"colours": {**colours, "distance": ramp, "series": series}, **more}
+    fog = {"fog": list(FOG), "fog_barrier": list(FOG_BARRIER), "late": list(palette.SERIES[1])}
+    return {"colours": {**colours, **fog, "distance": ramp, "series": series}, **more}
 
 
 def page_with(settings: dict[str, Any], first: Bundle | None, title: str, *, is_alone: bool) -> tuple[str, str]:

@@ -78,8 +78,47 @@ class Bound(Request):
     plan: _Text
 
 
+class Live(Request):
+    """A run that the page drives step by step; `sense` in cells, None for robots that know everything."""
+
+    planner: _Text
+    sense: Annotated[float, Field(ge=0, le=100)] | None = None
+    line_of_sight: bool = False
+    delays: Annotated[float, Field(ge=0, lt=1)] = 0.0
+    replan: bool = False
+    budget: _Positive | None = None
+
+
+class Happening(BaseModel):
+    """An event that happens before the next step, as `trihex.Event` has it."""
+
+    model_config = ConfigDict(extra="forbid", strict=True)
+    kind: _Text
+    cell: Annotated[list[int], Field(min_length=2, max_length=2)] | None = None
+    to: Annotated[list[int], Field(min_length=2, max_length=2)] | None = None
+    robot: _Whole | None = None
+    steps: Annotated[int, Field(ge=1, le=10**6)] | None = None
+
+
+class Advance(Request):
+    """Events, then steps, of a live run."""
+
+    live: _Text
+    events: Annotated[list[Happening], Field(max_length=10_000)] = []
+    steps: Annotated[int, Field(ge=0, le=64)] = 1
+
+
+class Judge(Request):
+    """The report of a live run so far."""
+
+    live: _Text
+
+
 class Save(Request):
-    """A file, into the folder (`in_folder`) or as an answer; a page may hold the plan `beside` as well."""
+    """A file, into the folder (`in_folder`) or as an answer; a page may hold the plan `beside` as well.
+
+    It is about the document, a `plan` that was made, or a `live` run so far.
+    """
 
     what: _Text
     name: _Text
@@ -87,6 +126,7 @@ class Save(Request):
     overwrite: bool = False
     plan: _Text | None = None
     beside: _Text | None = None
+    live: _Text | None = None
     planner: _Text | None = None
 
 
@@ -99,6 +139,9 @@ REQUESTS: dict[str, type[Request]] = {
     "generations": Generations,
     "plan": MakePlan,
     "bound": Bound,
+    "live": Live,
+    "advance": Advance,
+    "judge": Judge,
     "save": Save,
 }
 

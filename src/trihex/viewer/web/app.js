@@ -12,8 +12,9 @@ import { withClock } from "./clock.js";
 import { withHand } from "./hand.js";
 import { withKeys } from "./keys.js";
 import { withDialogs } from "./dialogs.js";
+import { withLive } from "./live.js";
 
-const PARTS = [withPanel, withHistory, withQuestions, withGrowth, withPicture, withResults, withClock, withHand, withKeys, withDialogs];
+const PARTS = [withPanel, withHistory, withQuestions, withGrowth, withPicture, withResults, withClock, withHand, withKeys, withDialogs, withLive];
 
 export class App extends PARTS.reduce((Base, add) => add(Base), class {}) {
   constructor(root, settings, host, first) {
@@ -29,6 +30,7 @@ export class App extends PARTS.reduce((Base, add) => add(Base), class {}) {
     this.follow = -1;
     this.fields = null; // { doc, distance, directions }
     this.growth = null; // { doc, values, counts, cells, changes, ends, generation, isComplete, isPlaying }
+    this.live = null; // a run that is under way, see live.js
     this.job = null;
     this.pointers = new Map();
     this.stroke = null;

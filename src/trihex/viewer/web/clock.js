@@ -10,7 +10,18 @@ export const withClock = (Base) => class extends Base {
     this.speed.setAttribute("aria-valuetext", `${speed} steps per second`);
   }
 
+  stepForward() {
+    if (!this.live) return this.seek(Math.floor(this.clock) + 1);
+    this.live.wantsStep = true;
+    this.invalidate();
+  }
+
   togglePlay() {
+    if (this.live) {
+      this.live.isPlaying = !this.live.isPlaying;
+      this.showClock();
+      return this.invalidate();
+    }
     if (!this.runs[0]) return this.host ? this.say(this.missing() || "Press Plan first.", true) : undefined;
     if (!this.isPlaying && this.clock >= this.steps) this.clock = 0;
     this.isPlaying = !this.isPlaying;
@@ -20,6 +31,7 @@ export const withClock = (Base) => class extends Base {
   }
 
   seek(clock) {
+    if (this.live) return;
     this.clock = Math.max(0, Math.min(clock, this.steps));
     this.showClock();
     this.invalidate();
@@ -36,6 +48,7 @@ export const withClock = (Base) => class extends Base {
     if (!this.panes || !this.doc || !this.shell.isConnected) return;
     const passed = Math.min(0.25, (time - (this.lastTick ?? time)) / 1000);
     this.lastTick = time;
+    const isRunning = this.live && this.liveTick(passed);
     if (this.isPlaying) {
       this.clock = Math.min(this.steps, this.clock + passed * this.stepsPerSecond);
       if (this.clock >= this.steps) {
@@ -47,7 +60,7 @@ export const withClock = (Base) => class extends Base {
     if (this.growth?.isPlaying) this.growTick(passed);
     const step = Math.floor(this.clock);
     this.panes.forEach((pane, i) => {
-      if (i && !this.runs[1]) return;
+      if (this.live || (i && !this.runs[1])) return;
       this.runs[i]?.playback.seek(step);
       pane.draw(step >= (this.runs[i]?.playback.steps ?? 0) ? 0 : this.clock - step);
     });
@@ -55,7 +68,7 @@ export const withClock = (Base) => class extends Base {
       clearTimeout(this.settling);
       this.settling = setTimeout(() => this.settle(), 150);
     }
-    if (this.isPlaying || this.growth?.isPlaying) this.invalidate();
+    if (this.isPlaying || this.growth?.isPlaying || isRunning) this.invalidate();
     else this.lastTick = undefined;
   }
 

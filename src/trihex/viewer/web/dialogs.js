@@ -54,9 +54,13 @@ export const withDialogs = (Base) => class extends Base {
       h("label", { class: "field" }, h("span", {}, "Or a file of this computer"), upload));
   }
 
-  openName(name, wish = {}) { return this.opened({ op: "open", name, in_folder: true, ...wish, ...this.request }, arraysOf(this.doc), name); }
+  openName(name, wish = {}) {
+    this.leaveLive();
+    return this.opened({ op: "open", name, in_folder: true, ...wish, ...this.request }, arraysOf(this.doc), name);
+  }
   async openFile(file, wish = {}) {
     if (file.size > 6e7) return this.say(`${file.name} is too large to be sent; start the viewer in its folder.`, true);
+    this.leaveLive();
     const content = new Uint8Array(await file.arrayBuffer());
     return this.opened({ op: "open", name: file.name, in_folder: false, ...wish, ...this.request }, { ...arraysOf(this.doc), content }, file.name);
   }
@@ -72,25 +76,26 @@ export const withDialogs = (Base) => class extends Base {
   }
 
   saveDialog() {
-    const { button } = this.parts, { exports } = this.settings, run = this.runs[0];
-    const what = h("select", { "aria-label": "What to save", onchange: () => update() }, Object.keys(exports).map((name) => h("option", { value: name, disabled: exports[name].plan && !run }, EXPORT_WORDS[name])));
+    const { button } = this.parts, { exports } = this.settings, { live } = this, run = this.runs[0], doc = live ? live.before.doc : this.doc;
+    const can = ({ needs }) => needs === "draft" || (needs === "run" ? !!live?.last.step : !!run);
+    const what = h("select", { "aria-label": "What to save", onchange: () => update() }, Object.keys(exports).map((name) => h("option", { value: name, disabled: !can(exports[name]) }, EXPORT_WORDS[name])));
     const suffix = h("select", { "aria-label": "Format", onchange: () => rename() }), name = h("input", { type: "text", "aria-label": "Name", value: "" });
-    const base = (this.doc.header.name || "area").replace(/[^\w-]+/g, "-").replace(/^-|-$/g, "") || "area";
-    const rename = () => { name.value = `${base}${exports[what.value].plan ? `-${run.summary.planner || "plan"}` : ""}${suffix.value}`; };
+    const base = (doc.header.name || "area").replace(/[^\w-]+/g, "-").replace(/^-|-$/g, "") || "area";
+    const rename = () => { name.value = `${base}${{ plan: `-${run?.summary.planner || "plan"}`, run: "-run", draft: "" }[exports[what.value].needs]}${suffix.value}`; };
     const update = () => {
       suffix.replaceChildren(...exports[what.value].suffixes.map((one) => h("option", { value: one }, one)));
       rename();
     };
-    what.value = run ? "plan" : "scenario";
+    what.value = live?.last.step ? "run" : run ? "plan" : "scenario";
     if (run && exports.plan.suffixes.includes(".npz")) exports.plan.suffixes.sort((a, b) => (b === ".npz") - (a === ".npz"));
     update();
     const message = h("p", { class: "note", role: "status" });
     const save = async (inFolder, overwrite = false) => {
-      const plan = run && (exports[what.value].plan || what.value === "picture") ? run.plan : null;
+      const plan = run && (exports[what.value].needs === "plan" || what.value === "picture") ? run.plan : null;
       const beside = what.value === "page" ? this.runs[1]?.plan ?? null : null;
-      const request = { op: "save", what: what.value, name: name.value, in_folder: inFolder, overwrite, plan, beside, planner: this.planner.lastChild.value, ...this.request };
+      const request = { op: "save", what: what.value, name: name.value, in_folder: inFolder, overwrite, plan, beside, live: exports[what.value].needs === "run" ? live.name : null, planner: this.planner.lastChild.value, ...this.request };
       message.textContent = "Saving…";
-      const answer = await this.ask(request, arraysOf(this.doc));
+      const answer = await this.ask(request, arraysOf(doc));
       if (!answer) return void (message.textContent = this.status.textContent);
       if (answer.header.exists) {
         message.replaceChildren(`${name.value} is there already. `, button("Replace it", () => save(true, true)));
@@ -105,7 +110,7 @@ export const withDialogs = (Base) => class extends Base {
   }
 
   helpDialog() {
-    const keys = [["Space", "play, pause"], [", .", "step back, forward"], ["[ ]", "slower, faster"], ["+ − 0", "zoom in, out, show all"], ["P", "plan"], ["V W E D R", "tools"],
+    const keys = [["Space", "play, pause"], [", .", "step back, forward"], ["[ ]", "slower, faster"], ["+ − 0", "zoom in, out, show all"], ["P", "plan"], ["L", "run live, leave"], ["V W E D R", "tools"],
       ["Arrows, Enter", "move the cursor, use the tool (Shift: ten cells)"], ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"], ["Ctrl+O, Ctrl+S", "open, save"], ["Escape", "cancel"]];
     this.open("How it works", h("ol", {}, ["Paint walls, or open an area.", "Set a destination and place robots; all robots go to the nearest destination.", "Grow the field: an automaton computes how far each cell is from the destinations.",
       "Plan: every robot gets a path; no two ever collide.", "Play, and compare with the optimum or with other cells."].map((line) => h("li", {}, line))),

@@ -10,7 +10,7 @@ export const withGrowth = (Base) => class extends Base {
     if (wanted && !this.showField.checked) this.showField.checked = true;
     const hasAll = this.fields && (this.fields.directions || !this.showArrows?.checked);
     clearTimeout(this.fieldTimer);
-    if (wanted && !hasAll && this.host && this.doc.destinations.length) this.fieldTimer = setTimeout(() => this.fetchFields(), this.stroke ? 60 : 0);
+    if (wanted && !hasAll && !this.live && this.host && this.doc.destinations.length) this.fieldTimer = setTimeout(() => this.fetchFields(), this.stroke ? 60 : 0);
     this.refreshPanes();
   }
 
@@ -24,6 +24,7 @@ export const withGrowth = (Base) => class extends Base {
   }
 
   async grow() {
+    this.leaveLive();
     const { growth } = this;
     if (growth && sameField(growth.doc, this.doc)) {
       if (growth.isComplete && growth.generation === growth.ends.length - 1) this.setGeneration(0);

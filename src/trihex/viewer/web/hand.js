@@ -125,7 +125,7 @@ export const withHand = (Base) => class extends Base {
   pick(i, { px, py }) {
     const pane = this.panes[i], { robots, view } = pane;
     if (!robots) return;
-    const fraction = this.clock - Math.floor(this.clock), reach = Math.max(10, view.scale * 0.6);
+    const { fraction } = this, reach = Math.max(10, view.scale * 0.6);
     let best = -1, least = reach * reach;
     for (let r = 0; r < robots.count; r++) {
       if (robots.state[r] === HIDDEN) continue;
@@ -144,6 +144,7 @@ export const withHand = (Base) => class extends Base {
 
   carry({ held, target, cell }) {
     const { doc } = this;
+    if (this.live) return held.robot === undefined ? this.tell("move", cell, { to: target }) : this.say("Robots that run cannot be carried; take one away with Erase, and let another join.", true);
     if (doc.barriers[target] || doc.robots.includes(target) || doc.destinations.includes(target)) return this.say("That cell is taken.", true);
     if (held.robot !== undefined) this.change({ robots: doc.robots.map((other, r) => (r === held.robot ? target : other)), header: { ...doc.header, seed: null } });
     else this.change({ destinations: doc.destinations.map((other) => (other === cell ? target : other)) });
@@ -175,7 +176,10 @@ export const withHand = (Base) => class extends Base {
 
   apply(cell) {
     if (cell < 0) return;
-    for (const one of this.brushed(cell)) this.stroke.touched.add(one);
+    for (const one of this.brushed(cell)) {
+      if (this.live && !this.stroke.touched.has(one)) this.touch(one);
+      this.stroke.touched.add(one);
+    }
   }
 
   // What the document is after a stroke.
@@ -198,12 +202,14 @@ export const withHand = (Base) => class extends Base {
   }
 
   showStroke() {
+    if (this.live) return;
     const doc = this.stroked(this.stroke);
     this.panes[0].show(doc, doc.robots === this.doc.robots ? this.panes[0].robots : new Still(doc, null));
     this.invalidate();
   }
 
   endStroke(stroke) {
+    if (this.live) return;
     const doc = this.stroked(stroke);
     const isSame = ["barriers", "robots", "destinations"].every((name) => doc[name] === this.doc[name] || (doc[name].length === this.doc[name].length && doc[name].every((value, k) => value === this.doc[name][k])));
     if (isSame) {
@@ -231,6 +237,7 @@ export const withHand = (Base) => class extends Base {
     const robot = this.clock === 0 ? doc.robots.indexOf(cell) : -1;
     if (robot >= 0) words.push(`robot ${robot}`);
     const distance = i ? this.runs[1]?.playback.distance : this.fields?.distance;
+    if (this.live?.known && !this.live.known[cell]) words.push("not seen");
     if (distance && !doc.barriers[cell]) words.push(distance[cell] === NOT_REACHED ? "not reached" : `${number(distance[cell])} to go`);
     const names = this.settings.names?.[`${doc.header.tessellation} ${doc.header.neighbourhood}`];
     if (!i && this.fields?.directions && names) {

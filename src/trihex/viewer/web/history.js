@@ -6,7 +6,7 @@ import { Playback } from "./playback.js";
 import { runOf, sameField } from "./runs.js";
 
 export const withHistory = (Base) => class extends Base {
-  get steps() { return Math.max(0, ...this.runs.map((run) => (run ? run.playback.steps : 0))); }
+  get steps() { return this.live ? this.live.last.step : Math.max(0, ...this.runs.map((run) => (run ? run.playback.steps : 0))); }
 
   // Take an answer of the host: a document, and the plan for it if there is one.
   take({ header, arrays }, { isEdit = true } = {}) {
@@ -25,6 +25,7 @@ export const withHistory = (Base) => class extends Base {
   }
 
   edit(doc, runs = [null, null]) {
+    this.leaveLive();
     if (this.doc) {
       this.past.push({ doc: this.doc, runs: this.runs });
       let bytes = 0, count = 0; // what the past may hold
@@ -52,13 +53,17 @@ export const withHistory = (Base) => class extends Base {
   undo() { this.travel(this.past, this.future); }
   redo() { this.travel(this.future, this.past); }
   travel(from, to) {
+    this.leaveLive();
     const state = from.pop();
     if (!state) return;
     to.push({ doc: this.doc, runs: this.runs });
     this.set(state.doc, state.runs);
   }
 
-  change(changes) { this.edit({ ...this.doc, ...changes }); }
+  change(changes) {
+    this.leaveLive();
+    this.edit({ ...this.doc, ...changes });
+  }
   rule(name, value) { this.change({ header: { ...this.doc.header, [name]: value } }); }
   retile(changes) {
     const header = { ...this.doc.header, ...changes };

@@ -20,7 +20,7 @@ export const withKeys = (Base) => class extends Base {
     if (key === " " && event.target.matches?.("button, summary, input, canvas")) return;
     const tool = this.host && TOOLS.find(([, , letter]) => letter.toLowerCase() === key);
     const does = tool ? () => this.choose(tool[0]) : {
-      " ": () => this.togglePlay(), ",": () => this.seek(Math.ceil(this.clock) - 1), ".": () => this.seek(Math.floor(this.clock) + 1),
+      " ": () => this.togglePlay(), ",": () => this.seek(Math.ceil(this.clock) - 1), ".": () => this.stepForward(), l: () => this.host && (this.live ? this.leaveLive() : this.runLive()),
       "+": () => this.zoom(1.4), "=": () => this.zoom(1.4), "-": () => this.zoom(1 / 1.4), 0: () => this.fit(), p: () => this.host && this.plan(0),
       "[": () => this.faster(-1), "]": () => this.faster(1), "?": () => this.helpDialog(), Escape: () => this.cancel(),
     }[key];

@@ -35,6 +35,8 @@ export class Pane {
     this.follow = -1;
     this.track = null; // cells of the followed robot
     this.cursor = -1;
+    this.known = null; // of each cell, whether a robot has seen it; null if all are known
+    this.crosses = []; // cells where something was refused
     this.isStale = { map: true, base: true, colours: true };
     this.isRough = false; // while a hand moves the picture
     this.sprites = new Map();
@@ -148,8 +150,17 @@ export class Pane {
     }
     const barrier = packed(palette.barrier), destination = packed(palette.destination);
     for (let cell = 0; cell < colour.length; cell++) if (doc.barriers[cell]) colour[cell] = barrier;
+    if (this.known) this.#fog(colour, palette);
     for (const cell of doc.destinations) colour[cell] = destination;
     return (this.colourOfCell = colour);
+  }
+
+  // What no robot has seen lies under fog; a field shines through it.
+  #fog(colour, palette) {
+    const { doc, known, values } = this, fog = packed(palette.fog), barrier = packed(palette.fog_barrier);
+    for (let cell = 0; cell < colour.length; cell++) {
+      if (!known[cell]) colour[cell] = doc.barriers[cell] ? barrier : values ? mix(colour[cell], fog, 150) : fog;
+    }
   }
 
   #drawBase() {

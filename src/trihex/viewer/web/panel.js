@@ -67,7 +67,7 @@ export const withPanel = (Base) => class extends Base {
     this.speedText = h("span", { class: "unit" });
     return h("div", { class: "transport", role: "group", "aria-label": "Playback" },
       button("|‹", () => this.seek(0), { "aria-label": "To the start", title: "Home" }), button("‹", () => this.seek(Math.ceil(this.clock) - 1), { "aria-label": "Step back", title: "," }),
-      this.playButton, button("›", () => this.seek(Math.floor(this.clock) + 1), { "aria-label": "Step forward", title: "." }),
+      this.playButton, button("›", () => this.stepForward(), { "aria-label": "Step forward", title: "." }),
       button("›|", () => this.seek(this.steps), { "aria-label": "To the end", title: "End" }),
       this.scrubber, this.clockText, h("label", { class: "speed" }, h("span", {}, "Speed"), this.speed, this.speedText));
   }
@@ -119,11 +119,13 @@ export const withPanel = (Base) => class extends Base {
       parts.push(section("Plan", true, h("div", { class: "row" }, this.planner, this.planButton), this.plannerOptions,
         h("div", { class: "grid" }, this.otherPlanner, this.otherCells), h("div", { class: "row" }, this.compareButton, this.endCompareButton), this.progressRow));
     }
+    if (can) parts.push(this.buildLive(section));
     this.results = h("div", { class: "results" });
     this.sofar = h("p", { class: "note sofar" });
     this.chart = h("div", { class: "chart" });
     this.sets = h("div", { class: "sets", "aria-label": "Robots by set" });
-    parts.push(section("Result", true, this.results, this.sets, this.sofar, this.chart));
+    parts.push(section("Result", true, this.results, this.sets, this.sofar, this.chart, can ? null : h("p", { class: "note" },
+      "This page plays a plan that was made; robots that run live, while you paint walls in their way, need trihex: start trihex view.")));
     this.robotNumber = h("input", { type: "number", min: 0, "aria-label": "Number of the robot to follow", placeholder: "number", onchange: (e) => this.followRobot(e.target.value === "" ? -1 : Number(e.target.value)) });
     this.robotText = h("div", { class: "robot" });
     this.centred = h("input", { type: "checkbox" });

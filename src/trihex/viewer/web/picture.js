@@ -23,10 +23,16 @@ export const withPicture = (Base) => class extends Base {
       this.growButton.textContent = this.growth?.isPlaying ? "Pause" : this.growth && !this.growth.isComplete ? "Growing…" : "Grow the field";
       this.endCompareButton.hidden = !this.runs[1];
       this.compareButton.disabled = this.planButton.disabled = false;
-      if (!this.runs[0] && !this.status.classList.contains("warning")) this.say(this.missing() || "Press Plan to find paths for all robots.");
+      if (this.live) this.endCompareButton.hidden = true;
+      else if (!this.runs[0] && !this.status.classList.contains("warning")) this.say(this.missing() || "Press Plan to find paths for all robots.");
       else if (!this.runs[0] && !this.missing()) this.say("Press Plan to find paths for all robots.");
     }
     if (this.runs[0] && !this.status.textContent) this.say("Press Play.");
+    if (this.host) {
+      this.liveButton.textContent = this.live ? "Stop" : "Run live";
+      this.keepButton.hidden = !this.live;
+      for (const field of this.liveFields.querySelectorAll("input, select")) field.disabled = !!this.live;
+    }
     this.refreshPanes();
     this.showResults();
     this.followRobot(this.follow);
@@ -55,8 +61,10 @@ export const withPicture = (Base) => class extends Base {
       pane.options = { dark, growing: !i && !!this.growth, most: this.farthest(i ? run.playback.distance : this.fields?.distance ?? own), arrows: this.showArrows?.checked, numbers: this.showNumbers.checked, steps: this.settings.steps?.[`${doc.header.tessellation} ${doc.header.neighbourhood}`] };
       pane.follow = this.follow;
       pane.track = this.follow >= 0 && run && this.follow < run.playback.count ? run.playback.robot(this.follow).rows.map((row) => row.cell) : null;
-      if (!run && (this.still?.doc !== doc || this.still.distance !== this.fields?.distance)) this.still = { doc, distance: this.fields?.distance, robots: new Still(doc, this.fields?.distance) };
-      pane.show(doc, run ? run.playback : this.still.robots);
+      pane.known = this.live?.known ?? null;
+      pane.crosses = [];
+      if (!run && !this.live && (this.still?.doc !== doc || this.still.distance !== this.fields?.distance)) this.still = { doc, distance: this.fields?.distance, robots: new Still(doc, this.fields?.distance) };
+      pane.show(doc, run ? run.playback : this.live ? this.live.crowd : this.still.robots);
       pane.changed("base");
       const kind = `${title(doc.header.tessellation)} area of ${doc.width} by ${doc.height} cells, ${plural(doc.robots.length, "robot")}, ${plural(doc.destinations.length, "destination")}.`;
       this.canvases[i].setAttribute("aria-label", `${kind} ${this.host && !i ? "Arrow keys move the cursor, Enter uses the tool." : "Arrow keys move the cursor."}`);
@@ -87,9 +95,14 @@ export const withPicture = (Base) => class extends Base {
       return h("span", {}, mark, words);
     };
     const entries = [entry("barrier", "barrier", "cell"), entry("destination", "destination")];
-    if (this.runs[0]) entries.push(entry("moving", "moving"), entry("waiting", "waiting"), entry("final", "arriving"));
+    if (this.live?.known) entries.push(entry("fog", "not seen", "cell"), entry("fog_barrier", "barrier not seen", "cell"));
+    if (this.live) {
+      entries.push(entry("moving", "moving"), entry("waiting", "waiting"));
+      if (this.live.delays) entries.push(entry("late", "late"));
+      if (this.live.last.cut_off) entries.push(entry("stranded", "cut off"));
+    } else if (this.runs[0]) entries.push(entry("moving", "moving"), entry("waiting", "waiting"), entry("final", "arriving"));
     else if (this.doc.robots.length) entries.push(entry("moving", "robot"));
-    if (this.runs[0]?.summary.unreachable || this.still?.robots.state.includes(STRANDED)) entries.push(entry("stranded", "cannot arrive"));
+    if (!this.live && (this.runs[0]?.summary.unreachable || this.still?.robots.state.includes(STRANDED))) entries.push(entry("stranded", "cannot arrive"));
     if (hasField) {
       const ramp = h("i", { class: "ramp" });
       ramp.style.background = `linear-gradient(to right, ${[0, 64, 128, 192, 255].map((i) => css(palette.distance[i])).join(",")})`;

@@ -5,7 +5,7 @@ import { NOT_REACHED, centreOf } from "./documents.js";
 
 export const WAIT = 255, JUMP = 254;
 
-export const HIDDEN = 0, MOVING = 1, WAITING = 2, FINAL = 3, STRANDED = 4;
+export const HIDDEN = 0, MOVING = 1, WAITING = 2, FINAL = 3, STRANDED = 4; // and 5, late, in live runs
 
 // Where the robots of a document stand before there is a plan.
 export class Still {

@@ -78,12 +78,14 @@ export const withQuestions = (Base) => class extends Base {
   }
 
   async scatter() {
+    this.leaveLive();
     const count = Number(this.count.lastChild.value), seed = Number(this.seed.lastChild.value);
     const doc = this.doc, answer = await this.ask({ op: "scatter", count, seed, ...this.request }, arraysOf(doc));
     if (answer && this.doc === doc) this.change({ robots: answer.arrays.robots.slice(), header: { ...doc.header, seed } });
   }
 
   async plan(which) {
+    this.leaveLive();
     const missing = this.missing();
     if (missing) return this.say(missing, true);
     if (which && !this.runs[0]) {

@@ -1,9 +1,11 @@
 // Results: the numbers of plans, their curves, and one robot.
 
 import { h, number, percent, title } from "./words.js";
+import { NOT_REACHED } from "./documents.js";
 
 export const withResults = (Base) => class extends Base {
   showResults() {
+    if (this.live) return this.showLive();
     const runs = this.runs.filter(Boolean);
     if (!runs.length) {
       this.results.replaceChildren(h("p", { class: "note" }, "No plan yet."));
@@ -68,10 +70,11 @@ export const withResults = (Base) => class extends Base {
     const { steps } = this, step = Math.floor(this.clock);
     this.scrubber.max = steps;
     this.scrubber.value = this.clock;
-    this.scrubber.disabled = this.playButton.disabled = !this.runs[0];
+    this.scrubber.disabled = !this.runs[0];
+    this.playButton.disabled = !this.runs[0] && !this.live;
     this.scrubber.setAttribute("aria-valuetext", `step ${step} of ${steps}`);
-    this.playButton.textContent = this.isPlaying ? "Pause" : "Play";
-    this.clockText.textContent = this.runs[0] ? `step ${number(step)} / ${number(steps)}` : "no plan";
+    this.playButton.textContent = this.isPlaying || this.live?.isPlaying ? "Pause" : "Play";
+    this.clockText.textContent = this.live ? `step ${number(steps)}, live` : this.runs[0] ? `step ${number(step)} / ${number(steps)}` : "no plan";
     const runs = this.runs.filter(Boolean);
     if (!runs.length) return;
     for (const cursor of this.cursors ?? []) for (const end of ["x1", "x2"]) cursor.setAttribute(end, (this.clock / Math.max(1, steps)) * this.chartWidth);
@@ -107,6 +110,8 @@ export const withResults = (Base) => class extends Base {
     if (this.follow < 0) return this.robotText.replaceChildren(h("p", { class: "note" }, "Click a robot to see its path, its moves d, its waits w and its time t."));
     const runs = this.runs.map((run, i) => [run, this.tracks[i]]).filter(([run, track]) => run && track);
     const place = (doc, cell) => `(${cell % doc.width}, ${Math.floor(cell / doc.width)})`;
+    const here = this.doc.robots[this.follow];
+    if (this.live) return this.robotText.replaceChildren(h("p", { class: "note" }, here < 0 ? `Robot ${this.follow} has gone.` : `Robot ${this.follow} is at ${place(this.doc, here)}${this.live.distance[here] < NOT_REACHED ? `, ${number(this.live.distance[here])} to go as far as is known` : ", cut off"}.`));
     if (!runs.length) return this.robotText.replaceChildren(h("p", { class: "note" }, `Robot ${this.follow} starts at ${place(this.doc, this.doc.robots[this.follow])}.`));
     const step = Math.floor(this.clock);
     this.robotText.replaceChildren(...runs.map(([run, track], i) => {

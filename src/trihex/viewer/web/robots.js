@@ -4,11 +4,14 @@ import { shapeOf } from "./documents.js";
 import { HIDDEN } from "./playback.js";
 import { packed, isLight, mix } from "./colours.js";
 
+// By the set that a robot belongs to, see playback.js.
+export const coloursOf = ({ moving, waiting, final, stranded, late }) => [null, moving, waiting, final, stranded, late];
+
 export function plotRobots(pane, fraction) {
   const { robots, view, frame32, canvas } = pane;
   const { width, height } = canvas, { x0, y0, x1, y1, state } = robots;
   const palette = pane.palette();
-  const colours = [null, palette.moving, palette.waiting, palette.final, palette.stranded];
+  const colours = coloursOf(palette);
   const radius = Math.max(1, view.scale * (pane.doc.header.tessellation === "triangular" ? 0.3 : 0.36));
   if (radius < 2) {
     const side = radius < 1.3 ? 2 : 3, flat = colours.map((colour) => (colour ? packed(colour) : 0));
@@ -81,7 +84,7 @@ export function drawMarks(pane, fraction) {
     (robots.y0[r] + (robots.y1[r] - robots.y0[r]) * fraction) * view.scale + view.top,
   ];
   if (robots && view.scale >= 24 && robots.count <= 3000) {
-    const palette = pane.palette(), colours = [null, palette.moving, palette.waiting, palette.final, palette.stranded];
+    const colours = coloursOf(pane.palette());
     c.textAlign = "center";
     c.textBaseline = "middle";
     c.font = `600 ${Math.min(18, view.scale * 0.3)}px system-ui, sans-serif`;
@@ -100,6 +103,18 @@ export function drawMarks(pane, fraction) {
       c.arc(px, py, radius, 0, 2 * Math.PI);
       c.lineWidth = width;
       c.strokeStyle = colour;
+      c.stroke();
+    }
+  }
+  for (const cell of pane.crosses) {
+    const [px, py] = pane.pointOf(cell), reach = Math.max(5, view.scale * 0.32);
+    for (const [width, colour] of [[7, "#fff"], [3.5, "#d0021b"]]) {
+      c.beginPath();
+      for (const side of [-1, 1]) {
+        c.moveTo(px - reach, py - side * reach);
+        c.lineTo(px + reach, py + side * reach);
+      }
+      Object.assign(c, { lineWidth: width, strokeStyle: colour });
       c.stroke();
     }
   }

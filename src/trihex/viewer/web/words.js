@@ -17,6 +17,7 @@ export const EXPORT_WORDS = {
   scenario: "Scenario: area, destinations, robots, rules", area: "Area: barriers only", field: "Field: the distance of each cell", starts: "Starts: cells of the robots",
   plan: "Plan: what each robot does at each step", page: "Page: one HTML file that plays anywhere, to share; both plans if there are two",
   movie: "Movie", picture: "Picture", waypoints: "Waypoints in metres", summary: "Summary: the numbers of the plan",
+  run: "Live run: all that happened, for trihex run --resume", run_movie: "Movie of the live run", run_picture: "Picture of the live run: what was seen when",
 };
 export const number = (value) => (value === null || value === undefined ? "–" : Math.round(value).toLocaleString("en").replace(/,/g, " "));
 export const percent = (value) => (value === null || value === undefined ? "–" : `${(100 * value).toFixed(value < 0.1 ? 2 : 1)} %`);
