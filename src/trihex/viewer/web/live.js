@@ -79,7 +79,7 @@ export const withLive = (Base) => class extends Base {
       name: answer.header.live, before: { doc, runs, fields }, delays, last: answer.header, askedStep: answer.header.step, summary: null,
       crowd: new Crowd(), world: new Uint8Array(cells), distance: new Int32Array(cells), known: sense === null ? null : new Uint8Array(cells),
       events: [], frames: [], refused: [], curves: { arrived: [0], waiting: [0] },
-      fraction: 1, latency: 0.02, isPlaying: true, isAsking: false, wantsStep: false,
+      fraction: 1, stride: 1, shownStep: answer.header.step, latency: 0.02, isPlaying: true, isAsking: false, wantsStep: false,
     };
     Object.assign(this, { runs: [null, null], clock: 0, isPlaying: false, doc: { ...doc, barriers: new Uint8Array(cells) } });
     this.adopt(answer);
@@ -110,7 +110,8 @@ export const withLive = (Base) => class extends Base {
   // ---- time
 
   liveTick(passed) {
-    const { live } = this, stride = Math.max(1, Math.round(this.stepsPerSecond / 30)), length = stride / this.stepsPerSecond;
+    // Where answers come slower than steps are wanted, an answer is for several steps.
+    const { live } = this, length = live.stride / this.stepsPerSecond, stride = Math.max(1, Math.round(this.stepsPerSecond * Math.max(1 / 30, 1.2 * live.latency)));
     live.fraction = Math.min(1, live.fraction + passed / length);
     if (live.fraction >= 1) live.crowd.settle();
     while (live.frames.length && (!live.frames[0].isStep || live.fraction >= 1)) this.adopt(live.frames.shift());
@@ -153,7 +154,7 @@ export const withLive = (Base) => class extends Base {
     live.crowd.move(this.doc, arrays.cells, arrays.sets, isStep);
     this.doc = { ...this.doc, robots: live.crowd.places() };
     if (isStep) {
-      live.fraction = 0;
+      Object.assign(live, { fraction: 0, stride: header.step - live.shownStep, shownStep: header.step });
       const waiting = arrays.sets.reduce((count, set) => count + (set === WAITING), 0);
       while (live.curves.arrived.length <= header.step) {
         live.curves.arrived.push(header.arrived);
