@@ -63,22 +63,10 @@ class Crowd(Record):
         """Number of nodes."""
         return self.scenario.area.layout.size * (1 + self.has_vertices)
 
-    @cached_property
-    def via_of_ring(self) -> NDArray[np.uint16]:
-        """Bits of the directions that pass a vertex, for each site of `Layout.ring_of_vertex`."""
-        layout, edges = self.scenario.area.layout, self.scenario.area.tessellation.edge_count
-        via = np.zeros(layout.ring_of_vertex.size, dtype=np.uint16)
-        for i, offset in enumerate(layout.ring_of_vertex):
-            # The numbers of vertices are even on triangles, where alone the orientation matters.
-            for k in range(edges, layout.vertex_of_direction.shape[1]):
-                if layout.vertex_of_direction[offset & 1, k] == -offset:
-                    via[i] |= 1 << k
-        return read_only(via)
-
     def sites_around(self, vertex: int) -> NDArray[np.int32]:
         """Return the sites from which a move passes the lattice vertex with this number."""
         sites = vertex + self.scenario.area.layout.ring_of_vertex
-        return np.asarray(sites[(self.scenario.moves[sites] & self.via_of_ring) > 0])
+        return np.asarray(sites[(self.scenario.moves[sites] & self.scenario.area.layout.via_of_ring) > 0])
 
 
 def make_crowd(scenario: Scenario) -> Crowd:
@@ -155,7 +143,7 @@ class _Flow:
             layout.offset_of_direction,
             layout.vertex_of_direction,
             layout.ring_of_vertex,
-            crowd.via_of_ring,
+            crowd.scenario.area.layout.via_of_ring,
             scenario.area.tessellation.edge_count,
             crowd.has_vertices,
             crowd.is_destination,

@@ -300,6 +300,17 @@ class Layout(Record):
         ring = _RINGS[self.tessellation.name] if self.tessellation.neighbourhood == "full" else []
         return self._offsets(np.array(ring, dtype=np.int32).reshape(-1, 2))
 
+    @cached_property
+    def via_of_ring(self) -> NDArray[np.uint16]:
+        """Bits of the directions that pass a lattice vertex from each of the sites around it, see `ring_of_vertex`."""
+        via = np.zeros(self.ring_of_vertex.size, dtype=np.uint16)
+        for i, offset in enumerate(self.ring_of_vertex):
+            # The numbers of vertices are even on triangles, where alone the orientation matters.
+            for k in range(self.tessellation.edge_count, self.tessellation.direction_count):
+                if self.vertex_of_direction[offset & 1, k] == -offset:
+                    via[i] |= 1 << k
+        return read_only(via)
+
     def cell_to_site(self, cell: NDArray[np.int64]) -> NDArray[np.int32]:
         """Return the sites of cells given by number (y * width + x)."""
         y, x = np.divmod(cell, self.width)

@@ -99,11 +99,11 @@ def weigh(
     """Let the robots of `regions` act for `steps` steps after `first_step`; fill a row of actions for each.
 
     `rules` are: what c counts, when to step aside, every how many steps lines are counted anew and a robot whose way
-    is free looks for a better one, what a collision costs, w_t, the first vertex move that may not be crossed, the capacity of
-    a destination (0: any). Each robot takes the free direction of least Fcost, unless waiting for the best direction
-    promises less. In each region one robot, the captain, or who stands at the head of its way, is asked first and
-    descends; so a captain arrives in bounded time, and then there is another. `lost` counts what all robots lose: the
-    cost of waits, and of moves beyond what they come nearer.
+    is free looks for a better one, what a collision costs, w_t, the first vertex move that may not be crossed, the
+    capacity of a destination (0: any). Each robot takes the free direction of least Fcost, unless waiting for the best
+    direction promises less. In each region one robot, the captain, or who stands at the head of its way, is asked
+    first and descends; so a captain arrives in bounded time, and then there is another. `lost` counts what all robots
+    lose: the cost of waits, and of moves beyond what they come nearer.
     """
     counts, aside, period, price, waiting_cost, first_vertex_move, capacity = rules
     filled = 0

@@ -12,11 +12,12 @@ from trihex.errors import PlanError, check_choice
 from trihex.plan import Plan
 from trihex.planners.crowd import make_crowd, regions_of
 from trihex.planners.greedy import run_greedy
+from trihex.planners.lanes import make_lanes
 from trihex.planners.recording import Progress, Recording
-from trihex.schemes import NScheme, make_d_scheme
+from trihex.schemes import DScheme, NScheme, make_d_scheme
 
-RULES = ("best", "paper", "queue", "aside")
-# Robot-steps up to which "best" tries "queue" as well: beyond, it wins too rarely to be worth half a second.
+RULES = ("best", "paper", "queue", "aside", "lanes")
+# Robot-steps up to which "best" tries "lanes" as well.
 _FEW = 2_000_000
 # Of so many robots and more each looks for a way better than a free one in every fourth step only: half the time, and
 # totals 0.2 % larger; in small crowds it would be 1 to 2 %.
@@ -34,13 +35,14 @@ def plan_fcost(n_scheme: NScheme, *, rule: str = "best", progress: Progress | No
     Parameters
     ----------
     n_scheme : NScheme
-    rule : {"best", "paper", "queue", "aside"}
+    rule : {"best", "paper", "queue", "aside", "lanes"}
         What c is. "paper": the number of other robots whose shortest path meets the path that starts with a direction
         (same cell, same step); the first robot of each branch of the D-scheme descends. "queue": the length of the line
         that they have formed when the robot gets there, each place at w_t or the cheapest move, whichever is less; a
-        robot that would wait may step to a cell no farther away if that costs no more. "aside": the same, and a blocked robot always steps to such a cell unless it has just
-        left it. "best": "aside" or greedy descent, whichever takes less total time, and up to two million robot-steps
-        "queue", too.
+        robot that would wait may step to a cell no farther away if that costs no more. "aside": the same, and a blocked
+        robot always steps to such a cell unless it has just left it. "lanes": the same, and V is not the least distance
+        but that along lanes, as many as there is room for, see `trihex.planners.lanes`. "best": "aside" or greedy
+        descent, whichever takes less total time, and up to two million robot-steps "lanes", too.
     progress : callable, optional
         Called with (robots arrived, robots that can arrive), of one rule after the other.
     """
@@ -57,17 +59,18 @@ class Slots:
 
     Parameters
     ----------
-    n_scheme : NScheme
+    d_scheme : DScheme
+        Whose first best directions are the forest.
     is_literal : bool
         One region, and slots for all branches. Otherwise only those branches have slots of their own in which robots
         start; all others of a region share some.
     """
 
-    def __init__(self, n_scheme: NScheme, is_literal: bool) -> None:
-        scenario = n_scheme.scenario
-        self.n_scheme, self.is_literal = n_scheme, is_literal
+    def __init__(self, d_scheme: DScheme, is_literal: bool) -> None:
+        scenario = d_scheme.n_scheme.scenario
+        self.n_scheme, self.is_literal = d_scheme.n_scheme, is_literal
         self.layout, self.tessellation = scenario.area.layout, scenario.area.tessellation
-        self.directions = make_d_scheme(n_scheme).directions_of_site
+        self.directions = d_scheme.directions_of_site
         region = regions_of(scenario, at_once=is_literal)
         order = np.argsort(region, kind="stable")
         self.destinations = self.layout.cell_to_site(scenario.destinations[order])
@@ -122,34 +125,38 @@ def _run(n_scheme: NScheme, rule: str, keeps_actions: bool, progress: Progress |
     What can no longer become the best is given up: greedy descent shows early how much waiting it costs.
     """
     check_choice("rule", rule, RULES, PlanError)
+    if rule == "lanes":
+        return _simulated(make_lanes(n_scheme).d_scheme, "aside", keeps_actions, progress)
+    d_scheme = make_d_scheme(n_scheme)
     if rule != "best":
-        return _simulated(n_scheme, rule, keeps_actions, progress)
-    best = _simulated(n_scheme, "aside", keeps_actions, progress)
+        return _simulated(d_scheme, rule, keeps_actions, progress)
+    best = _simulated(d_scheme, "aside", keeps_actions, progress)
     steps = best.crowd.arrival.sum()
     other = run_greedy(n_scheme, keeps_actions, progress, best.total_time)
     best = min(best, other, key=lambda one: (not one.is_over, one.total_time))
     if steps <= _FEW:
-        other = _simulated(n_scheme, "queue", keeps_actions, progress, best.total_time)
+        lanes = make_lanes(n_scheme)
+        other = _simulated(lanes.d_scheme, "aside", keeps_actions, progress, best.total_time)
         best = min(best, other, key=lambda one: (not one.is_over, one.total_time))
     return best
 
 
 def _simulated(
-    n_scheme: NScheme, rule: str, keeps_actions: bool, progress: Progress | None, limit: float = float("inf")
+    d_scheme: DScheme, rule: str, keeps_actions: bool, progress: Progress | None, limit: float = float("inf")
 ) -> Recording:
     """Simulate until all have arrived, or the total time is sure to be `limit` or more."""
     from trihex.kernels import fcost as kernels
 
-    scenario = n_scheme.scenario
+    scenario = d_scheme.n_scheme.scenario
     layout, tessellation = scenario.area.layout, scenario.area.tessellation
-    slots = Slots(n_scheme, is_literal=rule == "paper")
-    crowd = make_crowd(n_scheme, slots.find_regions)
+    slots = Slots(d_scheme, is_literal=rule == "paper")
+    crowd = make_crowd(d_scheme.n_scheme, slots.find_regions)
     recording = Recording(crowd, keeps_actions)
     aside = {"paper": kernels.STAY, "queue": kernels.WORTH, "aside": kernels.ALWAYS}[rule]
     counts = kernels.MEETINGS if rule == "paper" else kernels.QUEUE
     period = 1 if crowd.going <= _MANY else _PERIOD
     # Who would have to wait for others can go to and fro instead, so a place in a line is worth no more than a move. At
-    # w_t all robots would run from line to line: with w_t three moves, plans took up to four times as long as by greedy.
+    # w_t all robots would run from line to line: with w_t three moves, plans took up to 4.5 times as long as greedy's.
     price = w_t = scenario.waiting_cost
     if counts == kernels.QUEUE:
         price = min(w_t, int(tessellation.cost_of_direction.min()))
@@ -174,7 +181,7 @@ def _simulated(
         kernels.weigh(
             *(rules, layout.offset_of_direction, layout.vertex_of_direction, tessellation.cost_of_direction),
             *(block, first_step, steps),
-            *(n_scheme.distance_of_site, slots.directions, scenario.moves),
+            *(d_scheme.n_scheme.distance_of_site, slots.directions, scenario.moves),
             *(crowd.robot_at, crowd.passed, *crowd.entered),
             *tables,
             *(regions, crowd.first_of_region, crowd.count_of_region, captain_of_region),

@@ -1,0 +1,100 @@
+"""Lanes: ways from the farthest robots to the destinations that share no cell, and how all other cells join them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trihex.record import Record, read_only
+from trihex.scenario import Scenario
+from trihex.schemes import NOT_REACHED, DScheme, NScheme, make_d_scheme
+from trihex.wave import Wave
+
+_BUDGET = 1_000_000
+
+
+@dataclass(frozen=True, eq=False)
+class Lanes(Record):
+    """A forest over all cells that is as wide as the area allows.
+
+    Shortest ways share cells: where a corridor of two cells bends, all of them go round the inner corner, and one robot
+    passes in each step where two could. A *lane* is a way to a destination that shares no cell (nor, where nobody may
+    cross, a lattice vertex) with any other lane. Every other cell joins the lanes and destinations by a shortest way.
+
+    Parameters
+    ----------
+    n_scheme : NScheme
+        With what it costs along the forest in place of the least distances.
+    d_scheme : DScheme
+        Its directions; one only in each cell of a lane.
+    sites : ndarray of int32
+        Sites of the lanes, lane by lane, each from its beginning to its end.
+    """
+
+    n_scheme: NScheme
+    d_scheme: DScheme
+    sites: NDArray[np.int32]
+
+
+def make_lanes(n_scheme: NScheme) -> Lanes:
+    """Make as many lanes as possible from the robots, the farthest first, and let all other cells join them.
+
+    The farthest robot gets the cheapest way to a destination. Each next one gets a lane if there is any, if need be by
+    leading earlier lanes elsewhere, and so that all together cost least: a flow of least cost in which each cell
+    carries one (Ford and Fulkerson 1962). So behind any choke there are as many lanes as robots can pass it in a step.
+    """
+    from trihex.kernels import lanes as kernels
+
+    scenario = n_scheme.scenario
+    layout, cost = scenario.area.layout, scenario.area.tessellation.cost_of_direction
+    starts, nodes = _linked(n_scheme)
+    along, direction = np.full(layout.size, NOT_REACHED, dtype=np.int32), np.zeros(layout.size, dtype=np.uint16)
+    goals = layout.cell_to_site(scenario.destinations)
+    along[goals] = 0
+    moves, sites = scenario.moves.copy(), np.empty(scenario.area.free_count, dtype=np.int32)
+    count = kernels.lay(starts, layout.offset_of_direction, cost, nodes, moves, along, direction, sites)
+    sites = sites[:count].copy()
+    Wave(scenario, moves, along).lowered(np.concatenate([goals, sites]))
+    forest = replace(n_scheme, distance_of_site=read_only(along))
+    directions = make_d_scheme(forest).directions_of_site.copy()
+    directions[sites] = direction[sites]
+    return Lanes(forest, DScheme(forest, read_only(directions)), read_only(sites))
+
+
+def _linked(n_scheme: NScheme) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Return the sites of robots, the farthest first, and the nodes of `trihex.kernels.lanes` with all lanes."""
+    from trihex.kernels import lanes as kernels
+
+    scenario, distance = n_scheme.scenario, n_scheme.distance_of_site
+    layout, tessellation = scenario.area.layout, scenario.area.tessellation
+    starts = layout.cell_to_site(scenario.robots)
+    starts = starts[(distance[starts] != NOT_REACHED) & (distance[starts] > 0)]
+    starts = starts[np.argsort(-distance[starts], kind="stable")]
+    forbids = scenario.crossing == "forbid" and layout.ring_of_vertex.size > 0
+    first_vertex_move = tessellation.edge_count if forbids else tessellation.direction_count
+    entrances = _entrances(scenario, first_vertex_move)
+    rules = np.array([first_vertex_move, scenario.destination_capacity or 0, entrances], dtype=np.int64)
+    nodes = np.zeros((layout.size * (1 + forbids), kernels.COLUMNS), dtype=np.int32)
+    seen, level = np.empty(len(nodes), dtype=np.int32), np.empty(len(nodes), dtype=np.int32)
+    ends, state = np.zeros(layout.size, dtype=np.int32), np.zeros(3, dtype=np.int64)
+    graph = (layout.offset_of_direction, layout.vertex_of_direction, layout.ring_of_vertex, layout.via_of_ring)
+    while state[kernels.TRIED] < starts.size and state[kernels.FOUND] < entrances:
+        kernels.link(
+            *(rules, starts, scenario.moves, distance, *graph, tessellation.cost_of_direction),
+            *(nodes, ends, seen, level, state, _BUDGET),
+        )
+    return starts, nodes
+
+
+def _entrances(scenario: Scenario, first_vertex_move: int) -> int:
+    """Return how many robots can enter destinations in one step at most."""
+    layout = scenario.area.layout
+    goals = layout.cell_to_site(scenario.destinations)
+    moves = np.arange(scenario.area.tessellation.direction_count)
+    is_open = scenario.moves[goals, None] >> moves & 1 > 0
+    # Nobody shares an edge; but several moves may pass one vertex.
+    through = np.where(moves < first_vertex_move, -1 - moves, goals[:, None] + layout.vertex_of_direction[goals & 1])
+    ways = [np.unique(row[is_there]).size for row, is_there in zip(through, is_open, strict=True)]
+    return int(np.minimum(ways, scenario.destination_capacity or max(ways, default=0)).sum())

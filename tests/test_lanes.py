@@ -1,0 +1,151 @@
+"""Lanes: as many as OR-tools' maximum flow, of its least cost, from the same robots, and without a cell in common."""
+
+import itertools
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from ortools.graph.python.max_flow import SimpleMaxFlow
+from ortools.graph.python.min_cost_flow import SimpleMinCostFlow
+
+import trihex as th
+from tests.oracle_rules import Rules
+from tests.strategies import random_scenario
+from trihex.planners.lanes import make_lanes
+
+
+class Graph:
+    """Arcs between drawn cells, each of which carries one unit, as does each vertex that nobody may cross."""
+
+    def __init__(self, scenario):
+        rules = Rules(scenario)
+        self.numbers, self.arcs = {"end": 0}, []
+        self.goals = set(rules.places(scenario.destinations))
+        reachable = rules.reachable()
+        self.robots = [cell for cell in rules.places(scenario.robots) if cell in reachable - self.goals]
+        capacity = scenario.destination_capacity or 1000
+        for goal in self.goals:
+            self.add(("in", goal), "end", capacity, 0)
+        vertices = set()
+        for cell in reachable - self.goals:
+            self.add(("in", cell), ("out", cell), 1, 0)
+            for other, cost in rules.neighbours(cell):
+                vertex = rules.vertex(cell, other)
+                if vertex is None or scenario.crossing == "allow":
+                    self.add(("out", cell), ("in", other), 1, cost)
+                else:
+                    vertices |= {("enter", vertex)}
+                    self.add(("out", cell), ("enter", vertex), 1, cost)
+                    self.add(("leave", vertex), ("in", other), 1, 0)
+        for _, vertex in vertices:
+            self.add(("enter", vertex), ("leave", vertex), 1, 0)
+
+    def add(self, tail, head, capacity, cost):
+        number = [self.numbers.setdefault(node, len(self.numbers)) for node in (tail, head)]
+        self.arcs.append((*number, capacity, cost))
+
+    def most(self, robots):
+        """How many units get from these robots to the destinations."""
+        flow = SimpleMaxFlow()
+        for tail, head, capacity, _ in self.arcs:
+            flow.add_arc_with_capacity(tail, head, capacity)
+        for robot in robots:
+            flow.add_arc_with_capacity(len(self.numbers), self.numbers["in", robot], 1)
+        assert flow.solve(len(self.numbers), 0) == flow.OPTIMAL
+        return flow.optimal_flow()
+
+    def least_cost(self, robots):
+        flow = SimpleMinCostFlow()
+        for arc in self.arcs:
+            flow.add_arc_with_capacity_and_unit_cost(*arc)
+        for robot in robots:
+            flow.set_node_supply(self.numbers["in", robot], 1)
+        flow.set_node_supply(0, -len(robots))
+        assert flow.solve() == flow.OPTIMAL
+        return flow.optimal_cost()
+
+
+def ways(lanes):
+    """Cells of each lane, its beginning first, and the cells or vertices that the moves between them pass."""
+    scenario = lanes.n_scheme.scenario
+    area, rules = scenario.area, Rules(scenario)
+    goals = set(rules.places(scenario.destinations))
+    lane, found = [], []
+    for cell in rules.places(area.layout.site_to_cell(lanes.sites)):
+        lane.append(cell)
+        (k,) = np.flatnonzero(int(lanes.d_scheme.directions[cell[1], cell[0]]) >> np.arange(16) & 1)
+        dx, dy = area.tessellation.step_of_direction[int(area.tessellation.orientation_of_cell(*cell)), k]
+        following = (cell[0] + int(dx), cell[1] + int(dy))
+        assert following in dict(rules.neighbours(cell))
+        if following in goals:
+            found.append([*lane, following])
+            lane = []
+    assert not lane
+    return found
+
+
+@pytest.mark.parametrize("seed", range(80))
+def test_lanes_are_a_maximum_flow_of_least_cost_from_the_farthest_robots(seed):
+    scenario = replace(random_scenario(120_000 + seed, sides=(3, 12)), destination_capacity=None)
+    lanes = ways(make_lanes(th.make_n_scheme(scenario)))
+    graph, rules = Graph(scenario), Rules(scenario)
+    distance = dict(
+        zip(rules.places(scenario.robots), th.make_n_scheme(scenario).distance_of_cell(scenario.robots), strict=True)
+    )
+    chosen = []
+    for robot in sorted(graph.robots, key=lambda cell: -distance[cell]):  # ties in the order of the robots
+        if graph.most([*chosen, robot]) > len(chosen):
+            chosen.append(robot)
+    assert sorted(lane[0] for lane in lanes) == sorted(chosen)
+    tessellation = scenario.area.tessellation
+    if tessellation.costs == "euclidean" and tessellation.neighbourhood == "full" and scenario.crossing == "forbid":
+        return  # moves of several costs pass one vertex
+    cost = sum(dict(rules.neighbours(a))[b] for lane in lanes for a, b in itertools.pairwise(lane))
+    assert cost == graph.least_cost(chosen)
+
+
+@pytest.mark.parametrize("seed", range(80))
+def test_lanes_share_nothing_and_all_cells_join_them(seed):
+    scenario = random_scenario(130_000 + seed, sides=(3, 12))
+    n_scheme = th.make_n_scheme(scenario)
+    made = make_lanes(n_scheme)
+    lanes, rules = ways(made), Rules(scenario)
+    cells = [cell for lane in lanes for cell in lane[:-1]]
+    assert len(cells) == len(set(cells))
+    vertices = [rules.vertex(a, b) for lane in lanes for a, b in itertools.pairwise(lane)]
+    vertices = [vertex for vertex in vertices if vertex is not None]
+    if scenario.crossing == "forbid":
+        assert len(vertices) == len(set(vertices))
+    ends = [lane[-1] for lane in lanes]
+    assert max(map(ends.count, ends), default=0) <= (scenario.destination_capacity or 1000)
+    along = {}
+    for lane in lanes:
+        left = 0
+        for here, there in reversed(list(itertools.pairwise(lane))):
+            left += dict(rules.neighbours(here))[there]
+            along[here] = left
+    # Bellman and Ford: what is in no lane takes the cheapest way to one, or to a destination.
+    cost = dict.fromkeys(rules.places(scenario.destinations), 0) | along
+    others = rules.reachable() - set(cost)
+    changed = True
+    while changed:
+        changed = False
+        for cell in others:
+            least = min(cost.get(other, 10**9) + paid for other, paid in rules.neighbours(cell))
+            changed |= least < cost.get(cell, 10**9)
+            cost[cell] = min(least, cost.get(cell, 10**9))
+    distance = made.n_scheme.distance
+    assert {cell: int(distance[cell[1], cell[0]]) for cell in cost} == cost
+    assert np.array_equal(distance < 2**31 - 1, n_scheme.distance < 2**31 - 1)
+
+
+def test_two_robots_pass_a_bend_of_a_corridor_of_two_cells_in_one_step():
+    """All shortest ways go round the inner corner; lanes do not, and the crowd arrives sooner."""
+    barriers = np.ones((24, 24), dtype=bool)
+    barriers[2:4, 2:22] = barriers[2:22, 20:22] = barriers[20:22, 2:22] = False
+    area = th.Area("hexagonal", barriers)
+    robots = [(x, y) for y in (2, 3) for x in range(2, 22)]
+    scenario = th.Scenario(area, [(2, 20), (2, 21)], robots)
+    assert len(ways(make_lanes(th.make_n_scheme(scenario)))) == 2
+    last = {rule: th.make_plan(scenario, "fcost", rule=rule).steps for rule in ("aside", "lanes")}
+    assert last["lanes"] < last["aside"]
