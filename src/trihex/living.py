@@ -12,9 +12,7 @@ from trihex.errors import ScenarioError
 from trihex.kernels import NOT_REACHED as NOT_REACHED
 from trihex.record import read_only
 from trihex.scenario import CORNERS, Scenario
-
-_BUDGET = 1 << 18  # entries looked at in one call of a kernel, a few hundredths of a second
-_LEAST = 1 << 10
+from trihex.wave import BUDGET, Wave
 
 
 class Repair(NamedTuple):
@@ -89,8 +87,7 @@ class LivingField:
         fill_blocked(self.area.barriers, self.layout.origin, self.layout.pitch, self.blocked)
         self.destinations = set(scenario.destinations.tolist())
         self._reverse = _reverse_directions(self.layout.offset_of_direction)
-        self._lists = np.empty((3, _LEAST), dtype=np.int32)
-        self._log = np.empty(_LEAST, dtype=np.int32)
+        self._wave = Wave(scenario, self.moves, self.distance_of_site)
 
     @property
     def distance(self) -> NDArray[np.int32]:
@@ -166,57 +163,27 @@ class LivingField:
         gone = np.concatenate([site["blocked"], site["closed"]])
         gone = gone[distance[gone] != NOT_REACHED]
         distance[gone] = NOT_REACHED
-        doubtful = around[distance[around] != NOT_REACHED]
-        raised = np.concatenate([gone, self._run(kernels.RAISE, doubtful, distance[doubtful])])
+        raised = np.concatenate([gone, self._wave.raised(around)])
 
         distance[site["opened"]] = 0
         concerned = np.concatenate([raised, around])
         best = np.empty(concerned.size, dtype=np.int32)
-        for start in range(0, concerned.size, _BUDGET):
-            part = slice(start, start + _BUDGET)
+        for start in range(0, concerned.size, BUDGET):
+            part = slice(start, start + BUDGET)
             kernels.find_best(concerned[part], self.moves, offset, cost, distance, best[part])
         is_better = best < distance[concerned]
         better, best = concerned[is_better], best[is_better]
         distance[better] = best
-        better, best = np.concatenate([better, site["opened"]]), np.concatenate([best, 0 * site["opened"]])
-        lowered = self._run(kernels.LOWER, better, best)
+        lowered = self._wave.lowered(np.concatenate([better, site["opened"]]))
 
         sites = np.concatenate([concerned, lowered])
         if self.directions_of_site is not None:
-            for start in range(0, sites.size, _BUDGET):
-                part = slice(start, start + _BUDGET)
+            for start in range(0, sites.size, BUDGET):
+                part = slice(start, start + BUDGET)
                 kernels.renew_directions(
                     sites[part], self.moves, offset, self._reverse, cost, distance, self.directions_of_site
                 )
         return Repair(raised.size, lowered.size, sites)
-
-    def _run(self, wave: int, sites: NDArray[np.int32], values: NDArray[np.int32]) -> NDArray[np.int32]:
-        """Run a wave from `sites`, and return the sites that it changed."""
-        from trihex.kernels import repair as kernels
-
-        beginnings = values.astype(np.int64) << 32 | sites
-        beginnings.sort()
-        state = np.zeros(kernels.STATE_SIZE, dtype=np.int64)
-        while state[kernels.REASON] != kernels.DONE:
-            kernels.run_wave(
-                wave,
-                state,
-                beginnings,
-                self._lists.reshape(-1),
-                self._log,
-                self.moves,
-                self.layout.offset_of_direction,
-                self.area.tessellation.cost_of_direction,
-                self.distance_of_site,
-                _BUDGET,
-            )
-            if state[kernels.REASON] == kernels.TOO_FAR:
-                raise ScenarioError(f"distances must stay below {kernels.FARTHEST}; a cell that can be reached is not")
-            if state[kernels.REASON] == kernels.LISTS_FULL:
-                self._lists = np.concatenate([self._lists, np.empty_like(self._lists)], axis=1)
-            if state[kernels.REASON] == kernels.LOG_FULL:
-                self._log = np.concatenate([self._log, np.empty_like(self._log)])
-        return self._log[: state[kernels.LOGGED]].copy()
 
 
 def _reverse_directions(offset: NDArray[np.int32]) -> NDArray[np.int32]:
