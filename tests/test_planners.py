@@ -79,7 +79,7 @@ def test_names_and_options_are_checked():
         make_plan(scenario, "gredy")
     with pytest.raises(th.PlanError, match="option of planner 'fcost' must be one of rule, not 'rules'"):
         make_plan(scenario, "fcost", rules="paper")
-    with pytest.raises(th.PlanError, match="rule must be one of best, paper, queue, aside, not 'papers'"):
+    with pytest.raises(th.PlanError, match="rule must be one of best, paper, queue, aside, lanes, not 'papers'"):
         make_plan(scenario, "fcost", rule="papers")
     with pytest.raises(th.PlanError, match="record must be one of plan, arrivals, not 'times'"):
         make_plan(scenario, record="times")
