@@ -3,9 +3,9 @@
 import sys
 from pathlib import Path
 
-from examples.studies import planner, tessellations
+from examples.studies import planner, tessellations, unknown
 
-PAGES = {"tessellations": tessellations, "planner": planner}
+PAGES = {"tessellations": tessellations, "planner": planner, "unknown": unknown}
 
 
 def main(docs: Path) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from threading import Thread
 from time import perf_counter
 from typing import Any
 
@@ -25,6 +26,33 @@ class _OutOfTimeError(Exception):
     """Raised from within a planner to stop it."""
 
 
+class _Attempt(Thread):
+    """A plan in the making, in a thread of its own: robots whose time is over go on without it.
+
+    Planners can stop only where they report progress, up to a second apart, so nobody waits for them to stop.
+    """
+
+    def __init__(self, make: Callable[[Callable[[int, int], None]], Follower]) -> None:
+        super().__init__(daemon=True)
+        self._make = make
+        self.is_stopped = False
+        self.follower: Follower | None = None
+        self.error: BaseException | None = None
+
+    def run(self) -> None:
+        """Make the plan, unless it is stopped."""
+        try:
+            self.follower = self._make(self._watch)
+        except (_OutOfTimeError, TooLargeError):
+            pass
+        except BaseException as error:
+            self.error = error
+
+    def _watch(self, done: int, total: int) -> None:
+        if self.is_stopped:
+            raise _OutOfTimeError
+
+
 @dataclass(eq=False)
 class Guide:
     """Plans for the world as it is, and tells in each step who moves, in the order of the plan, whoever is late.
@@ -34,8 +62,7 @@ class Guide:
     planner : str
         A name of `trihex.planners.PLANNERS`.
     budget : float or None
-        Seconds that a plan may take, as far as the planner reports progress; None for any number. With a budget the
-        moves depend on the speed of the machine.
+        Seconds that a plan may take; None for any number. With a budget the moves depend on the speed of the machine.
     options : dict
         Of the planner.
     """
@@ -47,6 +74,7 @@ class Guide:
     plans: int = 0
     failures: int = 0
     _follower: Follower | None = None
+    _attempt: _Attempt | None = None
     _robots: NDArray[np.int64] = field(default_factory=lambda: np.empty(0, dtype=np.int64))
     _late_share: float = 0.0
     _pause: int = 1
@@ -84,18 +112,27 @@ class Guide:
         return self._robots, self._follower.step(np.flatnonzero(is_late[self._robots]))
 
     def _planned(self, world: Callable[[], tuple[NScheme, NDArray[np.int64]]]) -> Follower | None:
+        if self._attempt is not None and self._attempt.is_alive():
+            return None  # that of an earlier step has not noticed yet that it is to stop
         n_scheme, self._robots = world()
-        end = None if self.budget is None else perf_counter() + self.budget
 
-        def watch(done: int, total: int) -> None:
-            if end is not None and perf_counter() > end:
-                raise _OutOfTimeError
-
-        try:
+        def make(watch: Callable[[int, int], None]) -> Follower:
             plan = make_plan(n_scheme.scenario, self.planner, n_scheme=n_scheme, progress=watch, **self.options)
-            watch(1, 1)
-        except (_OutOfTimeError, TooLargeError):
+            return make_passing_order(plan).follow()
+
+        begin = perf_counter()
+        self._attempt = attempt = _Attempt(make)
+        if self.budget is None:
+            attempt.run()
+        else:
+            attempt.start()
+            attempt.join(max(self.budget, 0.0))
+        attempt.is_stopped = True
+        if attempt.error is not None:
+            raise attempt.error
+        is_late = self.budget is not None and perf_counter() - begin > self.budget
+        if is_late or attempt.is_alive() or attempt.follower is None:
             self.failures += 1
             return None
         self.plans += 1
-        return make_passing_order(plan).follow()
+        return attempt.follower

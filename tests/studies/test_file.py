@@ -89,7 +89,7 @@ areas = [{size = [3, 4]}, {generator = "randm", density = 20}]
         "study.toml: destinations.0: must be one of centre, west, east, north, south, random, file, not 'center'; "
         "did you mean 'centre'?",
         "study.toml: robots.1: must be a whole number, not 'many'",
-        "study.toml: robots.2.placement: must be one of uniform, west, east, north, south, not 'wst'; "
+        "study.toml: robots.2.placement: must be one of uniform, west, east, north, south, far, not 'wst'; "
         "did you mean 'west'?",
         "study.toml: seeds: must be a list of seeds, or how many from 1 to 10000000, not 0",
         "study.toml: planners.0.option: there is no such key; did you mean 'options'?",

@@ -1,6 +1,7 @@
 """Pages of the studies: they say what the tables of results say, and these are of the studies beside them."""
 
 import csv
+import json
 import math
 import re
 import sys
@@ -13,7 +14,7 @@ import trihex as th
 from trihex.studies.trial import COLUMNS
 
 ROOT = Path(__file__).parents[2]
-NAMES = ("tessellations", "planner")
+NAMES = ("tessellations", "planner", "unknown")
 
 
 @pytest.fixture(autouse=True)
@@ -107,6 +108,40 @@ def test_the_queues_in_the_page_of_the_planner_are_those_of_the_results():
     assert len(table) == 2 + 12
 
 
+def test_the_prices_in_the_page_of_the_unknown_are_those_of_the_results():
+    rows, text = rows_of("unknown"), text_of("unknown")
+    known, planned = {"run": {}}, {"run": {"delays": 0.0, "in_order": True}}
+    for words, placement, than, axis, more in (
+        ("200 robots all over the area, each", "uniform", known, "sense", {}),
+        ("20 robots that start together", "far", known, "sense", {}),
+        ("That alone makes", "uniform", known, "delays", {}),
+        ("Robots that keep the [order]", "uniform", planned, "delays", {"in_order": True}),
+    ):
+        table = table_after(text, words)
+        assert [line[0] for line in table[2:]] == ["random", "rooms", "caves", "maze", "warehouse", "all"]
+        values = [float(column.split()[0]) / (100 if axis == "delays" else 1) for column in table[0][1:]]
+        assert values == ([0, 2, 3, 5, 8, 12] if axis == "sense" else [0.05, 0.1, 0.2, 0.3])
+        for area, *cells in table[2:]:
+            some = [row for row in rows if row["placement"] == placement and area in (row["area"], "all")]
+            least = {
+                row["scenario"]: int(row["total_time"]) for row in some if json.loads(row["planner_options"]) == than
+            }
+            for value, cell in zip(values, cells, strict=True):
+                these = [row for row in some if json.loads(row["planner_options"]) == {"run": {axis: value, **more}}]
+                assert len(these) == (60 if area == "all" else 12)
+                ratio = means(these, lambda row, least=least: int(row["total_time"]) / least[row["scenario"]])
+                told = [float(part) for part in cell.split(" ± ")]
+                assert told == pytest.approx([100 * ratio[0] - 100, 100 * ratio[1]], abs=0.06)
+    # The two sentences on top are taken from these tables.
+    top = text.partition("The ground:")[0]
+    for words, column in (
+        ("200 robots all over the area, each", "0 cells"),
+        ("20 robots that start together", "3 cells"),
+    ):
+        table = table_after(text, words)
+        assert f"{float(table[-1][table[0].index(column)].split()[0]):.{0 if column == '3 cells' else 1}f} %" in top
+
+
 def test_the_example_is_the_one_that_is_explained_and_runs(tmp_path):
     text = (ROOT / "examples" / "study.toml").read_text()
     page = (ROOT / "docs" / "how-to" / "studies.md").read_text()
@@ -125,4 +160,4 @@ def test_pages_and_pictures_are_written_by_one_command(tmp_path, monkeypatch, ca
     for name in NAMES:
         assert (tmp_path / "studies" / f"{name}.md").read_text(encoding="utf-8") == text_of(name)
         assert (tmp_path / "figures" / f"study_{name}.png").stat().st_size > 10_000
-    assert capsys.readouterr().out.count("\n") == 2
+    assert capsys.readouterr().out.count("\n") == len(NAMES)

@@ -14,7 +14,7 @@ from trihex.schemes import NOT_REACHED, NScheme
 SIDES = ("west", "east", "north", "south")
 # "file": those that the file of the area names.
 DESTINATION_PLACES = ("centre", *SIDES, "random", "file")
-ROBOT_PLACEMENTS = ("uniform", *SIDES)
+ROBOT_PLACEMENTS = ("uniform", *SIDES, "far")
 
 
 def place_destinations(area: Area, place: str, count: int, seed: int) -> NDArray[np.int64]:
@@ -52,7 +52,8 @@ def place_destinations(area: Area, place: str, count: int, seed: int) -> NDArray
 def place_robots(n_scheme: NScheme, count: int, placement: str, seed: int) -> NDArray[np.int64]:
     """Return the numbers of `count` cells that reach a destination, drawn by `seed`: anywhere, or in half of the area.
 
-    Anywhere, they are those that `trihex plan --robots COUNT --seed SEED` draws.
+    Anywhere, they are those that `trihex plan --robots COUNT --seed SEED` draws. ``far``: those farthest from the
+    destinations, whatever the seed.
 
     Raises
     ------
@@ -67,6 +68,13 @@ def place_robots(n_scheme: NScheme, count: int, placement: str, seed: int) -> ND
         if count > area.cell_count - avoid.size:
             avoid = scenario.destinations
         return random_robots(area, count, seed, avoid=avoid)
+    if placement == "far":
+        cells = np.setdiff1d(np.arange(area.cell_count), avoid)
+        if count > cells.size:
+            raise ScenarioError(
+                f"robots must be at most the number of cells that reach a destination, {cells.size}, not {count}"
+            )
+        return np.asarray(cells[np.argsort(-n_scheme.distance.reshape(-1)[cells], kind="stable")[:count]])
     x, y = area.tessellation.centre_of_cell(*area.cell_to_xy(np.arange(area.cell_count)))
     width, height = area.tessellation.extent(area.height, area.width)
     is_chosen = {"west": x < width / 2, "east": x > width / 2, "north": y < height / 2, "south": y > height / 2}

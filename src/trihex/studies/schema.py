@@ -129,11 +129,22 @@ class RobotsAxis(Table):
     placement: Varied[Annotated[str, choice("it", ROBOT_PLACEMENTS)]] | None = None
 
 
+class RunAxis(Table):
+    """run = {}: robots decide step by step, as `trihex run` has them, in place of making a plan and keeping to it."""
+
+    sense: Varied[Annotated[Number, Field(ge=0, le=100)]] | None = None
+    line_of_sight: bool | None = None
+    delays: Varied[Annotated[Number, Field(ge=0, lt=1)]] | None = None
+    replan: bool | None = None
+    in_order: bool | None = None
+
+
 class PlannerAxis(Table):
     """[[planners]]: a planner and its options; an option that is a list is varied."""
 
     name: Varied[str]
     options: dict[str, Any] = Field(default_factory=dict)
+    run: RunAxis | None = None
 
 
 class LimitsTable(Table):

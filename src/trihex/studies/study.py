@@ -18,7 +18,7 @@ from trihex.formats.toml import complaint, parse_toml
 from trihex.record import Record
 from trihex.scenario import Scenario
 from trihex.studies.grid import Grid, variants_of
-from trihex.studies.schema import AreaAxis, StudyTable, bytes_of
+from trihex.studies.schema import AreaAxis, PlannerAxis, StudyTable, bytes_of
 from trihex.studies.trial import hash_of_scenario, read_area_of, try_planner, versions
 
 # What the key of a run is called, and that of its axis in a file; the last changes fastest, so that the runs of one
@@ -134,10 +134,11 @@ def _study_of(document: dict[str, Any], check: _Check) -> tuple[Study | None, li
         return None, mistakes
     check.mistakes = mistakes
     planners = [
-        (f"planners.{i}", {"name": name, "options": options})
+        (f"planners.{i}", {"name": name, "options": options, **run})
         for i, planner in enumerate(table.planners)
         for name in planner.name
         for options in variants_of(planner.options)
+        for run in _runs_of(planner)
     ]
     axes: dict[str, Sequence[Any]] = {"bound": [table.bound], "folder": [str(check.folder.resolve())]}
     axes |= {name: _entries(getattr(table, axis)) for name, axis in AXES.items() if name not in ("seed", "planner")}
@@ -159,6 +160,12 @@ def _study_of(document: dict[str, Any], check: _Check) -> tuple[Study | None, li
     memory = bytes_of(table.limits.memory) if table.limits.memory else None
     key = hashlib.sha256(content.encode()).hexdigest()
     return Study(grid, key, table.limits.seconds, memory, table.name), []
+
+
+def _runs_of(planner: PlannerAxis) -> list[dict[str, Any]]:
+    if planner.run is None:
+        return [{}]
+    return [{"run": run} for run in variants_of(planner.run.model_dump(exclude_none=True))]
 
 
 def _entries(tables: list[Any]) -> list[dict[str, Any]]:
@@ -197,7 +204,7 @@ class _Check:
 
     def planner(self, key: str, planner: dict[str, Any]) -> None:
         """Check that a planner exists and takes its options, on one robot: any planner tells at once."""
-        self._attempt(key, planner, lambda: try_planner(planner["name"], planner["options"]))
+        self._attempt(key, planner, lambda: try_planner(planner))
 
     def area(self, key: str, area: AreaAxis, tessellation: dict[str, Any]) -> None:
         """Check one entry of the areas."""

@@ -31,6 +31,7 @@ from trihex.report import Report, make_report
 from trihex.scenario import Scenario
 from trihex.schemes import NScheme, make_n_scheme
 from trihex.studies.placing import place_destinations, place_robots
+from trihex.studies.running import make_run_plan
 from trihex.tessellation import Tessellation
 
 Trial = Mapping[str, Any]
@@ -79,7 +80,7 @@ def run_trial(trial: Trial, tell: Callable[[Row], None] | None = None) -> Row:
     """
     row = blank_row(trial)
     try:
-        warm_up(trial["planner"]["name"])
+        warm_up(trial["planner"]["name"], "run" in trial["planner"])
         if tell is not None:
             tell(row)
         _fill(row, trial, tell)
@@ -114,13 +115,18 @@ def _fill(row: Row, trial: Trial, tell: Callable[[Row], None] | None) -> None:
     row.update(_described_scenario(scenario))
     if tell is not None:
         tell(row)
-    plan, row["seconds_plan"] = _timed(
-        lambda: make_plan(scenario, trial["planner"]["name"], n_scheme=n_scheme, **trial["planner"]["options"])
-    )
+    plan, row["seconds_plan"] = _timed(lambda: _plan_of(trial["planner"], n_scheme))
     audit, row["seconds_audit"] = _timed(lambda: audit_plan(plan))
     make_bound = make_lower_bound if trial["bound"] else distance_bound
     bound, row["seconds_bound"] = _latest("bound", _key(trial), lambda: _timed(lambda: make_bound(n_scheme)))
     row.update(_counted(make_report(plan, n_scheme=n_scheme, audit=audit, lower_bound=bound)))
+
+
+def _plan_of(planner: Mapping[str, Any], n_scheme: NScheme) -> Plan:
+    if "run" in planner:
+        return make_run_plan(n_scheme, planner)
+    plan: Plan = make_plan(n_scheme.scenario, planner["name"], n_scheme=n_scheme, **planner["options"])
+    return plan
 
 
 def _counted(report: Report) -> Row:
@@ -232,7 +238,7 @@ def _with_robots(trial: Trial, draft: Draft, empty: NScheme) -> NScheme:
 def _described(trial: Trial) -> Row:
     """Return what the row says of a trial before its scenario is known."""
     planner = trial["planner"]
-    row: Row = {"planner": planner["name"], "planner_options": _text(planner["options"])}
+    row: Row = {"planner": planner["name"], "planner_options": _text(_told(planner))}
     if "scenario" in trial:
         return row
     area, robots = trial["area"], trial["robots"]
@@ -248,6 +254,10 @@ def _described(trial: Trial) -> Row:
         "costs": trial["tessellation"].get("costs", "paper"),
         **trial["rules"],
     }
+
+
+def _told(planner: Mapping[str, Any]) -> dict[str, Any]:
+    return {**planner["options"], **({"run": planner["run"]} if "run" in planner else {})}
 
 
 def _described_scenario(scenario: Scenario) -> Row:
@@ -286,19 +296,19 @@ def versions() -> dict[str, str]:
     }
 
 
-def try_planner(name: str, options: Mapping[str, Any]) -> Report:
+def try_planner(planner: Mapping[str, Any]) -> Report:
     """Plan for two robots in a corridor: whether a planner and its options exist shows at once."""
     area = Area(Tessellation("hexagonal"), np.zeros((1, 3), dtype=bool))
     scenario = Scenario(area, np.array([0]), np.array([1, 2]))
     n_scheme = make_n_scheme(scenario)
-    plan = make_plan(scenario, name, n_scheme=n_scheme, **options)
+    plan = _plan_of(planner, n_scheme)
     return make_report(plan, n_scheme=n_scheme, lower_bound=make_lower_bound(n_scheme))
 
 
 @cache
-def warm_up(planner: str) -> None:
+def warm_up(planner: str, is_run: bool = False) -> None:
     """Load what a run needs, so that no run is charged for it."""
-    try_planner(planner, {})
+    try_planner({"name": planner, "options": {}, **({"run": {"sense": 1}} if is_run else {})})
 
 
 def _timed(work: Callable[[], Made]) -> tuple[Made, float]:
