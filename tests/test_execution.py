@@ -1,5 +1,7 @@
 """Execution: one safe move a step, whatever it is told of the world in between."""
 
+from threading import Event
+
 import numpy as np
 import pytest
 
@@ -294,3 +296,36 @@ def test_the_optimum_is_followed_and_found_again_where_the_world_changes():
     run = unknowing.run()
     assert run.arrived.all() and run.total_time >= least and unknowing.execution.guide.plans > 1
     assert th.audit_run(run).is_clean
+
+
+def test_a_planner_that_does_not_stop_in_time_keeps_nobody_waiting(monkeypatch):
+    scenario, asked, go_on = crowd(), [], Event()
+
+    def hang(scenario, planner, *, n_scheme, progress, **options):
+        asked.append(planner)
+        go_on.wait(60)
+        while True:  # until it is stopped
+            progress(1, 2)
+
+    stepping = Execution(scenario)
+    hurried = Execution(scenario, replan=True, budget=1e-3)
+    monkeypatch.setattr("trihex.guide.make_plan", hang)
+    for _ in range(8):
+        assert cells(hurried.step()) == cells(stepping.step())
+    assert asked == ["fcost"] and hurried.guide.plans == 0  # the next try waits until the first has stopped
+    go_on.set()
+    hurried.guide._attempt.join(60)
+    assert not hurried.guide._attempt.is_alive()
+    while not hurried.is_over:
+        assert cells(hurried.step()) == cells(stepping.step())
+    assert len(asked) > 1
+
+
+def test_what_goes_wrong_in_a_planner_is_told(monkeypatch):
+    def fail(*_, **__):
+        raise th.PlanError("no")
+
+    monkeypatch.setattr("trihex.guide.make_plan", fail)
+    for budget in (None, 60.0):
+        with pytest.raises(th.PlanError, match="no"):
+            Execution(crowd(), replan=True, budget=budget).step()
