@@ -132,7 +132,9 @@ def test_the_prices_in_the_page_of_the_unknown_are_those_of_the_results():
                 ratio = means(these, lambda row, least=least: int(row["total_time"]) / least[row["scenario"]])
                 told = [float(part) for part in cell.split(" ± ")]
                 assert told == pytest.approx([100 * ratio[0] - 100, 100 * ratio[1]], abs=0.06)
-    # The two sentences on top are taken from these tables.
+    # The two sentences on top are taken from these tables, and lead the page on changing worlds.
+    told = (ROOT / "docs" / "changing-world.md").read_text(encoding="utf-8")
+    assert " ".join(text.split("**")[1].split()) in " ".join(told.split())
     top = text.partition("The ground:")[0]
     for words, column in (
         ("200 robots all over the area, each", "0 cells"),
