@@ -92,6 +92,26 @@ def test_a_scenario_is_planned_in_the_notebook_and_had_back(in_notebook):
     shown.page.evaluate("() => window.close_widget()")
 
 
+def test_a_live_run_is_driven_in_the_notebook_and_had_back(in_notebook):
+    area = th.Area("triangular", np.zeros((4, 16)))
+    widget = th.make_widget(th.Scenario(area, [(15, 2)], [(0, 0), (1, 3)]), height=700)
+    assert widget.run is None
+    shown = in_notebook(widget)
+    shown.page.get_by_label("Steps per second").fill("4")
+    shown.press("Run live")
+    shown.press("Pause")
+    shown.wait("app.live && app.live.last.step && app.live.fraction === 1 && !app.live.isAsking")
+    shown.press("Wall")
+    shown.click(8, 2)
+    shown.wait("app.doc.barriers[2 * 16 + 8]")
+    shown.page.get_by_label("Steps per second").fill("13")
+    shown.press("Play")
+    shown.wait("app.live.summary")
+    run = widget.run
+    assert run.arrived.all() and th.audit_run(run).is_clean
+    assert [one.blocked for one in run.occurrences] == [(2 * 16 + 8,)] and shown.faults == []
+
+
 def test_a_plan_is_shown_and_mistakes_are_told(in_notebook):
     scenario = th.Scenario(th.Area("square", [[0, 0, 0]]), [(2, 0)], [(0, 0)])
     plan = make_plan(scenario, "greedy")

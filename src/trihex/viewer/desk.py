@@ -105,6 +105,11 @@ class Desk:
         """The last plan that was made or shown."""
         return next(reversed(self._reports.values())).plan if self._reports else None
 
+    @property
+    def last_run(self) -> Run | None:
+        """What has happened so far in the last live run."""
+        return next(reversed(self._lives.values())).record() if self._lives else None
+
     def _files(self, request: ask.ListFiles, call: _Call) -> Bundle:
         names = self.folder.names() if self.folder else []
         return Bundle({"files": names, "folder": str(self.folder.root) if self.folder else None}, {})

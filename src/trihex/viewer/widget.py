@@ -10,6 +10,7 @@ from trihex.area import Area
 from trihex.errors import MissingExtraError
 from trihex.formats.draft import Draft
 from trihex.plan import Plan
+from trihex.run import Run
 from trihex.scenario import Scenario
 from trihex.viewer.bundle import encode
 from trihex.viewer.choices import choices
@@ -22,7 +23,7 @@ def make_widget(record: Area | Scenario | Plan | Draft | None = None, *, height:
     """Return the viewer as a widget for Jupyter and other notebooks.
 
     What is drawn and planned there can be had back in Python: ``widget.scenario`` and ``widget.plan`` are those of the
-    last plan that was made or shown, None before.
+    last plan that was made or shown, ``widget.run`` is the last live run; None before.
 
     Parameters
     ----------
@@ -74,6 +75,11 @@ def _widget_class() -> Any:
         def scenario(self) -> Scenario | None:
             """The scenario of the last plan."""
             return None if self.plan is None else self.plan.scenario
+
+        @property
+        def run(self) -> Run | None:
+            """What has happened so far in the last live run."""
+            return self._desk.last_run
 
     return Viewer
 
