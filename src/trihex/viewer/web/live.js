@@ -10,7 +10,7 @@ import { FINAL, HIDDEN, WAITING } from "./playback.js";
 
 const IS_BARRIER = 1, IS_DESTINATION = 2, IS_KNOWN = 4; // as in live.py
 const REFUSED_FOR = 1500; // milliseconds that a cross stays on a cell
-const MOST_EVENTS = 2000; // in one request
+const MOST_EVENTS = 2000, MOST_STEPS = 8; // in one request
 
 // Robots of a live run, from where they were to where they are.
 class Crowd {
@@ -111,7 +111,8 @@ export const withLive = (Base) => class extends Base {
 
   liveTick(passed) {
     // Where answers come slower than steps are wanted, an answer is for several steps.
-    const { live } = this, length = live.stride / this.stepsPerSecond, stride = Math.max(1, Math.round(this.stepsPerSecond * Math.max(1 / 30, 1.2 * live.latency)));
+    const { live } = this, length = live.stride / this.stepsPerSecond;
+    const stride = Math.max(1, Math.min(MOST_STEPS, Math.round(this.stepsPerSecond * Math.max(1 / 30, 1.2 * live.latency))));
     live.fraction = Math.min(1, live.fraction + passed / length);
     if (live.fraction >= 1) live.crowd.settle();
     while (live.frames.length && (!live.frames[0].isStep || live.fraction >= 1)) this.adopt(live.frames.shift());
