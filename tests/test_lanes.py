@@ -84,22 +84,43 @@ def ways(lanes):
     return found
 
 
-@pytest.mark.parametrize("seed", range(80))
-def test_lanes_are_a_maximum_flow_of_least_cost_from_the_farthest_robots(seed):
+def due(distances, lanes, price):
+    """When robots are there that arrive one behind the other in each of some lanes; the farthest first."""
+    times = []
+    for distance in sorted(distances):
+        times.append(max(distance, times[-lanes] + price if len(times) >= lanes else 0))
+    return times[::-1]
+
+
+def chosen_robots(scenario, graph, is_choosy):
+    """The robots, in order, that get a lane: there is one, and it costs no more than to wait for the lanes so far."""
+    rules = Rules(scenario)
+    distances = th.make_n_scheme(scenario).distance_of_cell(scenario.robots)
+    distance = dict(zip(rules.places(scenario.robots), distances.tolist(), strict=True))
+    price = min(scenario.waiting_cost, scenario.area.tessellation.edge_cost)
+    order = sorted(graph.robots, key=lambda cell: -distance[cell])  # ties in the order of the robots
+    chosen, paid = [], 0
+    for i, robot in enumerate(order):
+        if graph.most([*chosen, robot]) == len(chosen):
+            continue
+        cost = graph.least_cost([*chosen, robot]) if is_choosy else 0
+        if is_choosy and chosen and cost - paid > due([distance[cell] for cell in order], len(chosen), price)[i]:
+            continue
+        chosen, paid = [*chosen, robot], cost
+    return chosen
+
+
+@pytest.mark.parametrize("is_choosy", [True, False])
+@pytest.mark.parametrize("seed", range(60))
+def test_lanes_are_a_flow_of_least_cost_from_the_farthest_robots(seed, is_choosy):
     scenario = replace(random_scenario(120_000 + seed, sides=(3, 12)), destination_capacity=None)
-    lanes = ways(make_lanes(th.make_n_scheme(scenario)))
-    graph, rules = Graph(scenario), Rules(scenario)
-    distance = dict(
-        zip(rules.places(scenario.robots), th.make_n_scheme(scenario).distance_of_cell(scenario.robots), strict=True)
-    )
-    chosen = []
-    for robot in sorted(graph.robots, key=lambda cell: -distance[cell]):  # ties in the order of the robots
-        if graph.most([*chosen, robot]) > len(chosen):
-            chosen.append(robot)
-    assert sorted(lane[0] for lane in lanes) == sorted(chosen)
     tessellation = scenario.area.tessellation
-    if tessellation.costs == "euclidean" and tessellation.neighbourhood == "full" and scenario.crossing == "forbid":
-        return  # moves of several costs pass one vertex
+    if tessellation.costs == "euclidean" and tessellation.neighbourhood == "full":
+        scenario = replace(scenario, crossing="allow")  # moves of several costs pass one vertex
+    lanes = ways(make_lanes(th.make_n_scheme(scenario), all_there_are=not is_choosy))
+    graph, rules = Graph(scenario), Rules(scenario)
+    chosen = chosen_robots(scenario, graph, is_choosy)
+    assert sorted(lane[0] for lane in lanes) == sorted(chosen)
     cost = sum(dict(rules.neighbours(a))[b] for lane in lanes for a, b in itertools.pairwise(lane))
     assert cost == graph.least_cost(chosen)
 

@@ -87,21 +87,22 @@ def _drop_first(heap, size):
 
 @njit(nogil=True)
 def _search(
-    root, start, search, first_vertex_move, capacity, moves, distance, offset, vertex, ring, via, cost, ends,
+    root, start, most, search, first_vertex_move, capacity, moves, distance, offset, vertex, ring, via, cost, ends,
     nodes, seen, level, result,
 ):  # fmt: skip
-    """Find the cheapest path from a node to a destination.
+    """Find the cheapest path from a node to a destination, if its reduced cost is at most `most`.
 
-    Fills `result` with its last node, the destination (-1: there is none), its reduced cost, and the number of nodes
-    seen. A Dijkstra search; nodes as near as the one under way wait in
-    a stack, so that of many equally good ways one is followed to its end.
+    Fills `result` with its last node, the destination (-1: there is none), its reduced cost, the number of nodes seen,
+    and whether any was left out because it is too expensive. A Dijkstra search; nodes as near as the one under way wait
+    in a stack, so that of many equally good ways one is followed to its end.
     """
     size = len(moves)
     heap = np.empty(1024, np.int64)
     keys = 0
     at = np.int64(0)
-    best = np.int64(NOBODY)
+    best = most + 1
     result[:] = -1
+    is_limited = 0
     nodes[root, SEARCH], nodes[root, REDUCED], nodes[root, PARENT], nodes[root, ENTERED] = search, 0, 0, start + 1
     seen[0] = level[0] = root
     count, waiting = 1, 1
@@ -154,6 +155,9 @@ def _search(
             if nodes[there, RISE] == NOBODY:
                 continue
             reduced = at + paid + _value(there, moves, distance, ring, via, nodes) - value
+            if reduced > most:
+                is_limited = 1
+                continue
             if nodes[there, SEARCH] != search:
                 seen[count] = there
                 count += 1
@@ -167,7 +171,18 @@ def _search(
             else:
                 heap = _push(heap, keys, reduced << 32 | there)
                 keys += 1
-    result[2], result[3] = best, count
+    result[2], result[3], result[4] = best, count, is_limited
+
+
+@njit(nogil=True)
+def _expect(starts, distance, lanes, price, due):
+    """Fill when each robot, the farthest first, would be there if all took turns in so many lanes without detours."""
+    if price < 0:
+        return
+    for i in range(len(starts) - 1, -1, -1):
+        due[i] = distance[starts[i]]
+        if i + lanes < len(starts):
+            due[i] = max(due[i], due[i + lanes] + price)
 
 
 @njit(nogil=True)
@@ -191,23 +206,23 @@ def _change_lanes(last, goal, first_vertex_move, moves, offset, vertex, cost, no
 @njit(
     types.void(
         *[IN_I64, IN_I32, IN_U16, IN_I32, TABLE_I32, TABLE_I32, IN_I32, IN_U16, IN_I32],
-        *[types.Array(types.int32, 2, "C"), OUT_I32, OUT_I32, OUT_I32, OUT_I64, types.int64],
+        *[types.Array(types.int32, 2, "C"), OUT_I32, OUT_I64, OUT_I32, OUT_I32, OUT_I64, types.int64],
     ),
     cache=True,
     nogil=True,
 )
 def link(
-    rules, starts, moves, distance, offset, vertex, ring, via, cost, nodes, ends, seen, level, state, budget
+    rules, starts, moves, distance, offset, vertex, ring, via, cost, nodes, ends, due, seen, level, state, budget
 ):  # fmt: skip
     """Find lanes from `starts` in turn until about `budget` nodes have been visited, or there is nothing left to try.
 
     `rules` are: the first vertex move that may not be crossed, how many lanes may end in a destination (0: any), how
-    many there can be in all. ``via[i]`` has the bits of the moves from ``vertex + ring[i]`` that
-    pass the vertex; ``ends[site]`` counts the lanes that end in a destination; `seen` and `level` have room for all
-    nodes.
+    many there can be in all, what a step of waiting costs (-1: find all there are). ``via[i]`` has the bits of the
+    moves from ``vertex + ring[i]`` that pass the vertex; ``due[i]`` is what a lane of robot i may cost; ``ends[site]``
+    counts the lanes that end in a destination; `seen` and `level` have room for all nodes.
     """
-    first_vertex_move, capacity, most_lanes = rules
-    result = np.empty(4, np.int64)
+    first_vertex_move, capacity, most_lanes, price = rules
+    result = np.empty(5, np.int64)
     done = state[VISITED] + budget
     while state[TRIED] < len(starts) and state[FOUND] < most_lanes and state[VISITED] < done:
         start = np.int64(starts[state[TRIED]])
@@ -217,17 +232,20 @@ def link(
         root = start
         if nodes[start, BEFORE] > 0:  # the lane that passes here goes elsewhere
             root = np.int64(nodes[start, BEFORE]) - 1
-        if nodes[root, RISE] == NOBODY:
+        most = due[state[TRIED] - 1] - _value(root, moves, distance, ring, via, nodes)
+        if root != start:
+            most += nodes[start, PAID]
+        if most < 0:
             continue
         _search(
-            root, start, state[TRIED], first_vertex_move, capacity, moves, distance, offset, vertex, ring, via,
+            root, start, most, state[TRIED], first_vertex_move, capacity, moves, distance, offset, vertex, ring, via,
             cost, ends, nodes, seen, level, result,
         )  # fmt: skip
-        last, goal, best, count = result
+        last, goal, best, count, is_limited = result
         state[VISITED] += count
         for i in range(count):
             node = seen[i]
-            if last < 0:
+            if last < 0 and not is_limited:
                 nodes[node, RISE] = NOBODY
             elif nodes[node, REDUCED] < best:
                 nodes[node, RISE] = min(nodes[node, RISE] + best - nodes[node, REDUCED], NOBODY)
@@ -235,6 +253,7 @@ def link(
             _change_lanes(last, goal, first_vertex_move, moves, offset, vertex, cost, nodes)
             ends[goal] += 1
             state[FOUND] += 1
+            _expect(starts, distance, state[FOUND], price, due)
 
 
 @njit(

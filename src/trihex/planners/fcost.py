@@ -12,7 +12,7 @@ from trihex.errors import PlanError, check_choice
 from trihex.plan import Plan
 from trihex.planners.crowd import make_crowd, regions_of
 from trihex.planners.greedy import run_greedy
-from trihex.planners.lanes import make_lanes
+from trihex.planners.lanes import make_lanes, price_of_waiting
 from trihex.planners.recording import Progress, Recording
 from trihex.schemes import DScheme, NScheme, make_d_scheme
 
@@ -155,12 +155,9 @@ def _simulated(
     aside = {"paper": kernels.STAY, "queue": kernels.WORTH, "aside": kernels.ALWAYS}[rule]
     counts = kernels.MEETINGS if rule == "paper" else kernels.QUEUE
     period = 1 if crowd.going <= _MANY else _PERIOD
-    # Who would have to wait for others can go to and fro instead, so a place in a line is worth no more than a move. At
-    # w_t all robots would run from line to line: with w_t three moves, plans took up to 4.5 times as long as greedy's.
-    price = w_t = scenario.waiting_cost
-    if counts == kernels.QUEUE:
-        price = min(w_t, int(tessellation.cost_of_direction.min()))
-    rules = np.array([counts, aside, period, price, w_t, *crowd.rules], dtype=np.int64)
+    # At w_t robots would run from line to line: with w_t three moves, plans took up to 4.5 times as long as greedy's.
+    price = price_of_waiting(scenario) if counts == kernels.QUEUE else scenario.waiting_cost
+    rules = np.array([counts, aside, period, price, scenario.waiting_cost, *crowd.rules], dtype=np.int64)
     many = slots.first_slot[-1] + 1
     count = np.bincount(slots.slot_of_site[crowd.site_of_robot[1:]], minlength=many).astype(np.int32)
     tables = (

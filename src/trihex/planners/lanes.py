@@ -38,18 +38,26 @@ class Lanes(Record):
     sites: NDArray[np.int32]
 
 
-def make_lanes(n_scheme: NScheme) -> Lanes:
-    """Make as many lanes as possible from the robots, the farthest first, and let all other cells join them.
+def make_lanes(n_scheme: NScheme, *, all_there_are: bool = False) -> Lanes:
+    """Make lanes from the robots, the farthest first, and let all other cells join them.
 
     The farthest robot gets the cheapest way to a destination. Each next one gets a lane if there is any, if need be by
     leading earlier lanes elsewhere, and so that all together cost least: a flow of least cost in which each cell
     carries one (Ford and Fulkerson 1962). So behind any choke there are as many lanes as robots can pass it in a step.
+    A lane is left out where its detour costs more than the wait that it saves: if robots arrived one behind the other
+    in the lanes so far, the nearest first, this one would be there sooner.
+
+    Parameters
+    ----------
+    n_scheme : NScheme
+    all_there_are : bool
+        Make lanes that are not worth their detours as well.
     """
     from trihex.kernels import lanes as kernels
 
     scenario = n_scheme.scenario
     layout, cost = scenario.area.layout, scenario.area.tessellation.cost_of_direction
-    starts, nodes = _linked(n_scheme)
+    starts, nodes = _linked(n_scheme, all_there_are)
     along, direction = np.full(layout.size, NOT_REACHED, dtype=np.int32), np.zeros(layout.size, dtype=np.uint16)
     goals = layout.cell_to_site(scenario.destinations)
     along[goals] = 0
@@ -63,7 +71,7 @@ def make_lanes(n_scheme: NScheme) -> Lanes:
     return Lanes(forest, DScheme(forest, read_only(directions)), read_only(sites))
 
 
-def _linked(n_scheme: NScheme) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+def _linked(n_scheme: NScheme, all_there_are: bool) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Return the sites of robots, the farthest first, and the nodes of `trihex.kernels.lanes` with all lanes."""
     from trihex.kernels import lanes as kernels
 
@@ -75,17 +83,24 @@ def _linked(n_scheme: NScheme) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     forbids = scenario.crossing == "forbid" and layout.ring_of_vertex.size > 0
     first_vertex_move = tessellation.edge_count if forbids else tessellation.direction_count
     entrances = _entrances(scenario, first_vertex_move)
-    rules = np.array([first_vertex_move, scenario.destination_capacity or 0, entrances], dtype=np.int64)
+    price = -1 if all_there_are else price_of_waiting(scenario)
+    rules = np.array([first_vertex_move, scenario.destination_capacity or 0, entrances, price], dtype=np.int64)
     nodes = np.zeros((layout.size * (1 + forbids), kernels.COLUMNS), dtype=np.int32)
     seen, level = np.empty(len(nodes), dtype=np.int32), np.empty(len(nodes), dtype=np.int32)
+    due = np.full(starts.size, kernels.NOBODY - 1, dtype=np.int64)
     ends, state = np.zeros(layout.size, dtype=np.int32), np.zeros(3, dtype=np.int64)
     graph = (layout.offset_of_direction, layout.vertex_of_direction, layout.ring_of_vertex, layout.via_of_ring)
     while state[kernels.TRIED] < starts.size and state[kernels.FOUND] < entrances:
         kernels.link(
             *(rules, starts, scenario.moves, distance, *graph, tessellation.cost_of_direction),
-            *(nodes, ends, seen, level, state, _BUDGET),
+            *(nodes, ends, due, seen, level, state, _BUDGET),
         )
     return starts, nodes
+
+
+def price_of_waiting(scenario: Scenario) -> int:
+    """Return what a step of waiting in a line costs: w_t, but no more than to go to and fro instead."""
+    return min(scenario.waiting_cost, int(scenario.area.tessellation.cost_of_direction.min()))
 
 
 def _entrances(scenario: Scenario, first_vertex_move: int) -> int:
