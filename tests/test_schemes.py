@@ -93,6 +93,43 @@ def test_fronts_that_outgrow_their_lists():
     assert np.array_equal(n_scheme.distance, 10 * np.maximum.outer(far, far) + 4 * np.minimum.outer(far, far))
 
 
+def assert_is_fixed_point(n_scheme):
+    """Costs being positive, one scheme alone holds 0 at destinations and elsewhere the least of neighbour and cost."""
+    scenario, layout = n_scheme.scenario, n_scheme.scenario.area.layout
+    distance = n_scheme.distance_of_site.astype(np.int64)
+    best = np.full(distance.size, NOT_REACHED)
+    sites = np.flatnonzero(scenario.moves)
+    for k, cost in enumerate(scenario.area.tessellation.cost_of_direction.tolist()):
+        movable = sites[scenario.moves[sites] >> k & 1 == 1]
+        there = distance[movable + layout.offset_of_direction[movable & 1, k]]
+        best[movable] = np.minimum(best[movable], there + cost)
+    best[layout.cell_to_site(scenario.destinations)] = 0
+    assert np.array_equal(distance, np.minimum(best, NOT_REACHED))
+
+
+def with_halls(area, seed):
+    """Return a maze with ways round and two halls, in which long fronts form."""
+    barriers = area.barriers & (np.random.default_rng(seed).random(area.barriers.shape) >= 0.02)
+    barriers[20:260, 20:260] = barriers[-30:, -30:] = False
+    return th.Area(area.tessellation, barriers)
+
+
+@pytest.mark.parametrize(("tessellation", "corners"), RULES, ids=lambda rule: getattr(rule, "name", rule))
+def test_corridors_and_halls(tessellation, corners, monkeypatch):
+    monkeypatch.setattr("trihex.settling._FIRST_BUDGET", 500)
+    monkeypatch.setattr("trihex.settling._BUDGET", 2000)
+    maze = th.make_maze_area(tessellation, 300, 300, seed=3)
+    for area in (maze, with_halls(maze, 4)):
+        for destination in np.flatnonzero(~area.barriers)[[0, -1]]:
+            scenario = th.Scenario(area, [destination], corners=corners)
+            n_scheme = th.make_n_scheme(scenario)
+            assert_is_fixed_point(n_scheme)
+        robots = th.random_robots(area, 3, seed=5)
+        some = th.make_n_scheme(scenario.with_robots(robots), robots_only=True)
+        known = np.where(n_scheme.distance < some.horizon, n_scheme.distance, NOT_REACHED)
+        assert np.array_equal(some.distance, known)
+
+
 @pytest.mark.parametrize("name", ["triangular", "hexagonal", "square"])
 def test_every_free_cell_a_destination(name):
     barriers = np.random.default_rng(1).random((70, 70)) < 0.3
@@ -137,6 +174,7 @@ def test_kernels_may_stop_and_go_on_anywhere(tessellation, corners, monkeypatch)
         whole = th.make_n_scheme(scenario)
         monkeypatch.setattr("trihex.schemes._BUDGET", budget)
         monkeypatch.setattr("trihex.settling._BUDGET", budget)
+        monkeypatch.setattr("trihex.settling._FIRST_BUDGET", budget)
         assert th.make_n_scheme(scenario) == whole
         assert th.make_n_scheme(scenario).generations == whole.generations
         some = th.make_n_scheme(scenario.with_robots(robots), robots_only=True)

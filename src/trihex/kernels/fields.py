@@ -45,7 +45,7 @@ def finish(distance, horizon):
 
 
 @njit(nogil=True)
-def _try_moves(entry, first, last, value, table, direction, bits, is_masked, distance, lists, tail):
+def try_moves(entry, first, last, value, table, direction, bits, is_masked, distance, lists, tail):
     """Give `value` to the sites where columns first..last-1 lead, if that is better; append them; return the tail.
 
     Every move is written to the list and every distance stored, and the tail moves on or not: without a branch to
@@ -125,18 +125,18 @@ def make_settle(slots, is_masked):
                 if is_masked:
                     bits = np.uint64(moves[site])
                 value = np.int32(base + cost[0])
-                tail = _try_moves(entry, 0, end0, value, table, direction, bits, is_masked, distance, lists, tail)
+                tail = try_moves(entry, 0, end0, value, table, direction, bits, is_masked, distance, lists, tail)
                 if groups > 1:
                     value = np.int32(base + cost[1])
                     is_far = value >= far_from
                     t = far_tail if is_far else tail
-                    t = _try_moves(entry, end0, end1, value, table, direction, bits, is_masked, distance, lists, t)
+                    t = try_moves(entry, end0, end1, value, table, direction, bits, is_masked, distance, lists, t)
                     tail, far_tail = tail if is_far else t, t if is_far else far_tail
                 if groups > 2:
                     value = np.int32(base + cost[2])
                     is_far = value >= far_from
                     t = far_tail if is_far else tail
-                    t = _try_moves(entry, end1, columns, value, table, direction, bits, is_masked, distance, lists, t)
+                    t = try_moves(entry, end1, columns, value, table, direction, bits, is_masked, distance, lists, t)
                     tail, far_tail = tail if is_far else t, t if is_far else far_tail
             if at == end and (seed == len(seeds) or value_of_seed[seed] >= bucket_end):
                 here, near, far = near, far, here
