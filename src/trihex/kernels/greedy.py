@@ -4,63 +4,160 @@ A *region* is what leads to the same few destinations. Robots keep to their regi
 can be simulated, many steps at a time: what its robots look at stays in the cache, which makes a step three times as
 fast as in a sweep over all robots. All that regions share are lattice vertices at their borders: for each of these it
 is kept in which steps of the block it has been passed, one bit each.
+
+Who waits behind others that wait *sleeps*: nobody asks it until one of the cells it waits for is left. So standing
+queues cost nothing but the moves of those who move up.
+
+Sites are made unsigned before they index an array, or numba would test each for being negative; no array goes to a
+helper that is called for each robot, because its references would be counted. Each made a step a fifth faster.
 """
 
 import numpy as np
 from numba import njit, types
 from numba.cpython.unsafe.numbers import trailing_zeros
 
-from trihex.kernels.signatures import IN_I64, OUT_I32, OUT_I64, OUT_U8, OUT_U16, TABLE_I32
+from trihex.kernels.signatures import IN_I32, IN_I64, OUT_I32, OUT_I64, OUT_U8, OUT_U16
 
-# Flags of a site beside its direction bits.
-DESTINATION = 1 << 14
-CHECKED = 1 << 13  # its directions lead to its own region only
+# Flags of a site above its direction bits.
 DIRECTIONS = (1 << 12) - 1
+OCCUPIED = 1 << 12
+WATCHED = 1 << 13  # somebody may wait for it
+CHECKED = 1 << 14  # its directions lead to its own region only
+DESTINATION = 1 << 15
+# Tables of moves have a row of 16 for each parity of sites.
+ROW = 4
 WAIT = 255
+_NOBODY = 1 << 40
+_U = np.uint64
 
 
 @njit(nogil=True)
 def _find_region(site, cells, offset, region):
     """Fill and return the region of a site: that of the destination at the end of its first best directions."""
     at = site
-    while region[at] == 0:
-        at += offset[at & 1, trailing_zeros(cells[at])]
-    found = region[at]
+    while region[_U(at)] == 0:
+        at += offset[_U((at & 1) << ROW | trailing_zeros(cells[_U(at)]))]
+    found = region[_U(at)]
     at = site
-    while region[at] == 0:
-        region[at] = found
-        at += offset[at & 1, trailing_zeros(cells[at])]
+    while region[_U(at)] == 0:
+        region[_U(at)] = found
+        at += offset[_U((at & 1) << ROW | trailing_zeros(cells[_U(at)]))]
     return found
 
 
-@njit(types.void(OUT_I32, OUT_U16, TABLE_I32, OUT_I32, OUT_I32), cache=True, nogil=True)
+@njit(types.void(OUT_I32, OUT_U16, IN_I32, OUT_I32, OUT_I32), cache=True, nogil=True)
 def find_regions(starts, cells, offset, region, region_of_robot):
     """Fill the region of each start; ``region[site]`` is known (above 0) of destinations, elsewhere 0 at first."""
     for robot in range(len(starts)):
-        region_of_robot[robot] = _find_region(starts[robot], cells, offset, region)
+        region_of_robot[robot] = _find_region(np.int64(starts[robot]), cells, offset, region)
 
 
 @njit(nogil=True)
-def _check(site, cells, offset, region):
-    """Leave of the best directions of a site those that lead to its own region; return its flags."""
-    there = cells[site]
-    own = _find_region(site, cells, offset, region)
-    untried = there & DIRECTIONS
+def _check(site, own, cells, offset, region):
+    """Leave of the best directions of a site those that lead to its own region, as the first does; return its flags."""
+    here = cells[_U(site)]
+    region[_U(site)] = own
+    untried = here & DIRECTIONS
+    untried &= untried - np.uint16(1)
     while untried:
         k = np.int64(trailing_zeros(untried))
         untried &= untried - np.uint16(1)
-        if _find_region(site + offset[site & 1, k], cells, offset, region) != own:
-            there &= ~np.uint16(1 << k)
-    there |= CHECKED
-    cells[site] = there
-    return there
+        if _find_region(site + offset[_U((site & 1) << ROW | k)], cells, offset, region) != own:
+            here &= ~np.uint16(1 << k)
+    here |= CHECKED
+    cells[_U(site)] = here
+    return here
+
+
+@njit(nogil=True)
+def _has_passed(steps, block, s):
+    """Whether step `s` of the block is one of the steps in which a vertex was passed."""
+    return steps >> 32 == block and (steps >> s) & 1 != 0
+
+
+@njit(nogil=True)
+def _with_step(steps, block, s, via):
+    """Return the steps in which vertex `via` was passed, now step `s` as well; of vertex 0, which is none, nothing."""
+    if via == 0:
+        return 0
+    return (steps if steps >> 32 == block else block << 32) | 1 << s
+
+
+@njit(nogil=True)
+def _move_up(
+    hole,
+    block,
+    s,
+    steps,
+    first_row,
+    moves,
+    tables,
+    cells,
+    robot_at,
+    passed,
+    site,
+    first_way,
+    acted,
+    asked,
+    coming,
+    actions,
+):
+    """Let robots move up: one into the hole, then one into the place that it has left, as long as somebody waits there.
+
+    Of those that have not moved in this step the first one goes, if the cell is one of its best and any of them waits,
+    be it asleep or since it was asked in this step. Return how many have moved.
+    """
+    offset, vertex, back = tables
+    count, first_vertex_move = moves
+    moved = 0
+    while True:
+        parity = (hole & 1) << ROW
+        taker, taken, via, start = _NOBODY, 0, 0, 0
+        candidates, waiting = 0, 0
+        for j in range(count):
+            beside = hole + offset[_U(parity | j)]
+            flags = np.int64(cells[_U(beside)])
+            k = np.int64(back[_U(parity | j)])
+            if not (flags >> k) & (flags >> 12) & (flags >> 14) & 1:  # its way leads here, occupied, checked
+                continue
+            i = np.int64(robot_at[_U(beside)])
+            if acted[_U(i)] == s:
+                continue
+            waits = 1 - (asked[_U(i >> 6)] >> (i & 63) & 1)
+            candidates += 1
+            waiting += waits
+            at = (hole + vertex[_U(parity | j)]) * (k >= first_vertex_move)
+            if first_vertex_move < count and _has_passed(passed[_U(at)], block, s):
+                coming[_U(i >> 6)] |= waits << (i & 63)
+            elif i < taker:
+                taker, taken, via, start = i, k, at, beside
+        if taker == _NOBODY or waiting == 0:
+            return moved
+        if first_vertex_move < count:
+            passed[_U(via)] = _with_step(passed[_U(via)], block, s, via)
+        here = cells[_U(hole)]
+        cells[_U(hole)] = here | OCCUPIED | (WATCHED if candidates > 1 else 0)
+        robot_at[_U(hole)] = taker
+        site[_U(taker)] = hole
+        first_way[_U(taker)] = trailing_zeros(here)
+        acted[_U(taker)] = s
+        bit = np.int64(1) << (taker & 63)
+        asked[_U(taker >> 6)] &= ~bit
+        coming[_U(taker >> 6)] |= bit
+        actions[_U((first_row + taker) * steps + s)] = taken
+        moved += 1
+        hole = start
+        flags = np.int64(cells[_U(hole)])
+        cells[_U(hole)] = flags & ~(OCCUPIED | WATCHED)
+        if not flags & WATCHED:
+            return moved
 
 
 @njit(
     types.void(
-        *[TABLE_I32, TABLE_I32, types.int64, types.int64, types.int64, types.int64, types.int64],
+        *[IN_I32, IN_I32, IN_I32, types.int64, types.int64, types.int64, types.int64, types.int64, types.int64],
         *[OUT_U16, OUT_I32, OUT_I32, OUT_I64, OUT_I32, OUT_I32],
-        *[IN_I64, IN_I64, OUT_I64, OUT_I32, OUT_I32, OUT_I32, OUT_I32],
+        *[IN_I64, IN_I64, OUT_I64, OUT_I32, OUT_I32, OUT_U8],
         *[OUT_I32, OUT_U8, OUT_I64, types.int64, OUT_I64],
     ),
     cache=True,
@@ -69,6 +166,8 @@ def _check(site, cells, offset, region):
 def descend(
     offset,
     vertex,
+    back,
+    move_count,
     first_vertex_move,
     capacity,
     block,
@@ -85,8 +184,7 @@ def descend(
     count_of_region,
     listed,
     site_of_robot,
-    row_of_robot,
-    asked,
+    asleep,
     robot_of_row,
     action_of_row,
     arrival,
@@ -95,87 +193,132 @@ def descend(
 ):
     """Let the robots of `regions` descend for `steps` steps after `first_step`; fill a row of actions for each.
 
-    ``cells[site]`` holds the best directions and whether the site is a destination, ``robot_at[site]`` who stands
-    there (0: nobody). The robots of a region stand in its part of `listed`, those that started nearest first. Each
-    takes the first of its best directions that is free. If a robot stands in its way that has not yet been asked in
-    this step, that one is asked first; it is nearer, so this ends, and nobody waits for a cell that becomes free in the
-    same step. (Sorting the robots by distance in each step instead made plans 1.5 % worse and took twice as long.)
+    ``cells[site]`` holds the best directions and the flags of a site. The robots of a region stand in its part of
+    `listed`, those that started nearest first; here they are numbered in that order, ``robot_at[site]`` is such a
+    number. In that order they are asked. Each takes the first of its best directions that is free; then others move up
+    behind it (`_move_up`). Nobody waits for a cell that becomes free in the same step. (Asking who is in the way before
+    oneself gives totals 0.02 % less, but then nobody can sleep; letting only those move up that wait already, not
+    those that are still to be asked, makes them 0.3 % larger.)
+
+    A robot whose best cells are all occupied sleeps, one that a passed vertex or a full destination holds up is asked
+    again in the next step. So of each sleeper all best cells are occupied: whoever leaves one fills it at once, or
+    wakes the sleeper.
 
     A move from `first_vertex_move` on passes a lattice vertex: ``passed`` holds the block in its upper half and the
     steps of the block in its lower. A destination takes `capacity` robots a step (0: any number). The nearest robot of
     all finds its way free unless another has taken it, so in every step something comes nearer.
     `lost` counts what waiting costs.
     """
-    filled = 0
+    forbids = first_vertex_move < move_count
+    most = 0
+    for region in regions:
+        most = max(most, count_of_region[region])
+    # Of each robot of the region where it is, the first of its best directions, and the step in which it moved last;
+    # and in bits who is still to be asked in this step, and who in the next.
+    site = np.empty(most, np.int32)
+    first_way = np.empty(most, np.uint8)
+    acted = np.empty(most, np.int8)
+    asked = np.zeros((most >> 6) + 1, np.int64)
+    coming = np.zeros((most >> 6) + 1, np.int64)
+    first_row = 0
     waits = 0
-    waiting_for_other = np.empty(len(listed), np.int32)
-    for i in range(len(regions)):
-        region = regions[i]
-        first = first_of_region[region]
-        for j in range(first, first + count_of_region[region]):
-            row_of_robot[listed[j]] = filled
-            robot_of_row[filled] = listed[j]
-            filled += 1
+    for region in regions:
+        first, count = first_of_region[region], count_of_region[region]
+        words = (count + 63) >> 6
+        asked[:words] = 0
+        coming[:words] = 0
+        for i in range(count):
+            robot = listed[first + i]
+            robot_of_row[first_row + i] = robot
+            at = np.int64(site_of_robot[robot])
+            here = cells[at]
+            if not here & CHECKED:
+                here = _check(at, region + 1, cells, offset, region_of_site)
+            robot_at[at] = i
+            site[i] = at
+            first_way[i] = trailing_zeros(here)
+            acted[i] = -1
+            asked[i >> 6] |= np.int64(1 - asleep[robot]) << (i & 63)
+        action_of_row[first_row * steps : (first_row + count) * steps] = WAIT
+        going = count
         for s in range(steps):
             step = first_step + s + 1
-            kept = first
-            for j in range(first, first + count_of_region[region]):
-                own = listed[j]
-                robot = own
-                depth = 0
-                while asked[own] != step:
-                    site = site_of_robot[robot]
-                    here = cells[site]
-                    if not here & CHECKED:
-                        here = _check(site, cells, offset, region_of_site)
+            waits += going
+            for w in range(words):
+                word = asked[_U(w)]
+                again = np.int64(0)
+                while word:
+                    bit = word & -word
+                    word ^= bit
+                    i = w << 6 | np.int64(trailing_zeros(bit))
+                    at = np.int64(site[_U(i)])
+                    parity = (at & 1) << ROW
+                    here = cells[_U(at)]
+                    k = np.int64(first_way[_U(i)])
+                    to = at + offset[_U(parity | k)]
+                    there = cells[_U(to)]
+                    via = (at + vertex[_U(parity | k)]) * (k >= first_vertex_move)
+                    is_free = not there & OCCUPIED
+                    if forbids:
+                        is_free &= not _has_passed(passed[_U(via)], block, s)
+                    if capacity > 0:
+                        is_free &= entered_step[_U(to)] != step or entered_count[_U(to)] < capacity
                     untried = here & DIRECTIONS
-                    taken = WAIT
-                    to = site
-                    via = 0
-                    other = np.int32(0)
-                    while untried:
+                    sleeps = True
+                    while untried and not is_free:
                         k = np.int64(trailing_zeros(untried))
                         untried &= untried - np.uint16(1)
-                        target = site + offset[site & 1, k]
-                        other = robot_at[target]
-                        if other:
-                            if other > own and asked[other] != step:  # those listed before have been asked
-                                break
-                            other = np.int32(0)
+                        to = at + offset[_U(parity | k)]
+                        there = cells[_U(to)]
+                        via = (at + vertex[_U(parity | k)]) * (k >= first_vertex_move)
+                        if there & OCCUPIED:
+                            cells[_U(to)] = there | WATCHED
                             continue
-                        at = (site + vertex[site & 1, k]) * (k >= first_vertex_move)
-                        if passed[at] >> 32 == block and passed[at] >> s & 1:
-                            continue
-                        if capacity > 0 and entered_step[target] == step and entered_count[target] >= capacity:
-                            continue
-                        taken = k
-                        to = target
-                        via = at
-                        break
-                    if other:
-                        waiting_for_other[depth] = robot
-                        depth += 1
-                        robot = other
-                        continue
-                    asked[robot] = step
-                    action_of_row[row_of_robot[robot] * steps + s] = taken
-                    waits += taken == WAIT
-                    before = passed[via] if passed[via] >> 32 == block else block << 32
-                    passed[via] = before | 1 << s if via else 0
-                    robot_at[site] = 0
-                    robot_at[to] = robot
-                    site_of_robot[robot] = to
-                    if cells[to] & DESTINATION:
-                        arrival[robot] = step
-                        robot_at[to] = 0
-                        site_of_robot[robot] = 0
+                        is_free = not forbids or not _has_passed(passed[_U(via)], block, s)
                         if capacity > 0:
-                            entered_count[to] = 1 + entered_count[to] * (entered_step[to] == step)
-                            entered_step[to] = step
-                    if depth > 0:
-                        depth -= 1
-                        robot = waiting_for_other[depth]
-                listed[kept] = own
-                kept += site_of_robot[own] > 0
-            count_of_region[region] = kept - first
+                            is_free &= entered_step[_U(to)] != step or entered_count[_U(to)] < capacity
+                        sleeps = False
+                    if not is_free:
+                        again |= 0 if sleeps else bit
+                        continue
+                    waits -= 1
+                    acted[_U(i)] = s
+                    action_of_row[_U((first_row + i) * steps + s)] = k
+                    if forbids:
+                        passed[_U(via)] = _with_step(passed[_U(via)], block, s, via)
+                    cells[_U(at)] = here & ~np.uint16(OCCUPIED | WATCHED)
+                    if there & DESTINATION:
+                        arrival[_U(listed[_U(first + i)])] = step
+                        site[_U(i)] = 0
+                        going -= 1
+                        if capacity > 0:
+                            entered_count[_U(to)] = 1 + entered_count[_U(to)] * (entered_step[_U(to)] == step)
+                            entered_step[_U(to)] = step
+                    else:
+                        if not there & CHECKED:
+                            there = _check(to, region + 1, cells, offset, region_of_site)
+                        cells[_U(to)] = there | OCCUPIED
+                        robot_at[_U(to)] = i
+                        site[_U(i)] = to
+                        first_way[_U(i)] = trailing_zeros(there)
+                        again |= bit
+                    if here & WATCHED:
+                        asked[_U(w)] = word
+                        waits -= _move_up(
+                            *(at, block, s, steps, first_row, (move_count, first_vertex_move), (offset, vertex, back)),
+                            *(cells, robot_at, passed, site, first_way, acted, asked, coming, action_of_row),
+                        )
+                        word = asked[_U(w)]
+                asked[_U(w)] = 0
+                coming[_U(w)] |= again
+            asked, coming = coming, asked
+        kept = first
+        for i in range(count):
+            robot = listed[first + i]
+            site_of_robot[robot] = site[i]
+            asleep[robot] = 1 - (asked[i >> 6] >> (i & 63) & 1)
+            listed[kept] = robot
+            kept += site[i] > 0
+        count_of_region[region] = kept - first
+        first_row += count
     lost[0] += waits * waiting_cost

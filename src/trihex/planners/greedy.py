@@ -9,16 +9,18 @@ from trihex.arrivals import Arrivals
 from trihex.plan import Plan
 from trihex.planners.crowd import make_crowd, regions_of
 from trihex.planners.recording import Progress, Recording
+from trihex.scenario import Scenario
 from trihex.schemes import NScheme, make_d_scheme
 
 
 def plan_greedy(n_scheme: NScheme, *, progress: Progress | None = None) -> Plan:
     """Plan by greedy descent of the distance, a baseline of the paper (section 5).
 
-    In each step each robot takes the first of its tied best directions that is free, and waits if there is none; a
-    robot that stands in another's way is asked before it, otherwise those are first that started nearest. Nobody ever
-    steps aside, so it is blind to congestion; yet in every step some robot comes nearer, so every robot that can arrive
-    does. Destinations less than 64 columns and rows apart count as one region, and robots keep to their region.
+    In each step each robot takes the first of its tied best directions that is free, and waits if there is none; those
+    are asked first that started nearest. Into a cell that is left while somebody waits for it another moves up at once.
+    Nobody ever steps aside, so it is blind to congestion; yet in every step some robot comes nearer, so every robot
+    that can arrive does. Destinations less than 64 columns and rows apart count as one region, and robots keep to their
+    region.
 
     Parameters
     ----------
@@ -47,13 +49,17 @@ def run_greedy(
     region_of_site = np.zeros(layout.size, dtype=np.int32)
     region_of_site[destinations] = regions_of(scenario) + 1
 
+    tables = _tables(scenario)
+
     def find_regions(starts: NDArray[np.int32]) -> NDArray[np.int64]:
         region = np.empty(starts.size, dtype=np.int32)
-        kernels.find_regions(starts, cells, layout.offset_of_direction, region_of_site, region)
+        kernels.find_regions(starts, cells, tables[0], region_of_site, region)
         return region.astype(np.int64) - 1
 
     crowd = make_crowd(n_scheme, find_regions)
     cells[destinations] = kernels.DESTINATION
+    cells[crowd.site_of_robot[1:]] |= np.uint16(kernels.OCCUPIED)
+    asleep = np.zeros(crowd.robot.size, dtype=np.uint8)
     recording = Recording(crowd, keeps_actions)
 
     def simulate(
@@ -65,12 +71,25 @@ def run_greedy(
         action_of_row: NDArray[np.uint8],
     ) -> None:
         kernels.descend(
-            *(layout.offset_of_direction, layout.vertex_of_direction, *crowd.rules, block, first_step, steps),
+            *(*tables, scenario.area.tessellation.direction_count, *crowd.rules, block, first_step, steps),
             *(cells, region_of_site, crowd.robot_at, crowd.passed, *crowd.entered),
-            *(regions, crowd.first_of_region, crowd.count_of_region, crowd.listed),
-            *(crowd.site_of_robot, crowd.row_of_robot, crowd.asked),
+            *(regions, crowd.first_of_region, crowd.count_of_region, crowd.listed, crowd.site_of_robot, asleep),
             *(robot_of_row, action_of_row, crowd.arrival, scenario.waiting_cost, recording.lost),
         )
 
     recording.run(simulate, progress, limit)
     return recording
+
+
+def _tables(scenario: Scenario) -> list[NDArray[np.int32]]:
+    """Return what a move adds to the site, what to the site makes its vertex, and the direction of the move back.
+
+    Each flat, with a row of 16 directions for each parity of sites.
+    """
+    layout = scenario.area.layout
+    offset = layout.offset_of_direction
+    there = (np.arange(2)[:, None] + offset) & 1
+    back = np.argmax(offset[there] == -offset[:, :, None], axis=2)
+    many = 16 - offset.shape[1]
+    tables = (offset, layout.vertex_of_direction, back)
+    return [np.pad(table, ((0, 0), (0, many))).astype(np.int32).reshape(-1) for table in tables]
