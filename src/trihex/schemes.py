@@ -243,14 +243,16 @@ def make_d_scheme(n_scheme: NScheme) -> DScheme:
 
     scenario = n_scheme.scenario
     layout = scenario.area.layout
-    directions = np.zeros(layout.size, dtype=np.uint16)
-    for start in range(layout.origin, layout.origin + layout.height * layout.pitch, _BLOCK):
+    end = layout.origin + layout.height * layout.pitch
+    directions = np.empty(layout.size, dtype=np.uint16)
+    directions[: layout.origin] = directions[end:] = 0
+    for start in range(layout.origin, end, _BLOCK):
         kernels.fill_directions(
             n_scheme.distance_of_site,
             layout.offset_of_direction,
             scenario.area.tessellation.cost_of_direction,
             start,
-            min(start + _BLOCK, layout.origin + layout.height * layout.pitch),
+            min(start + _BLOCK, end),
             directions,
         )
     if scenario.corners != "allow":
