@@ -131,6 +131,7 @@ def test_lanes_share_nothing_and_all_cells_join_them(seed):
     n_scheme = th.make_n_scheme(scenario)
     made = make_lanes(n_scheme)
     lanes, rules = ways(made), Rules(scenario)
+    assert [rules.places(way) for way in made.ways] == [lane[:-1] for lane in lanes]
     cells = [cell for lane in lanes for cell in lane[:-1]]
     assert len(cells) == len(set(cells))
     vertices = [rules.vertex(a, b) for lane in lanes for a, b in itertools.pairwise(lane)]

@@ -19,6 +19,8 @@ from trihex.schemes import DScheme, NScheme, make_d_scheme
 RULES = ("best", "paper", "queue", "aside", "lanes")
 # Robot-steps up to which "best" tries "lanes" as well.
 _FEW = 2_000_000
+# Looking for lanes may take as long as planning does: so many nodes, and two for each robot-step.
+_VISITS = 20_000
 # Of so many robots and more each looks for a way better than a free one in every fourth step only: half the time, and
 # totals 0.2 % larger; in small crowds it would be 1 to 2 %.
 _MANY, _PERIOD = 10_000, 4
@@ -135,7 +137,7 @@ def _run(n_scheme: NScheme, rule: str, keeps_actions: bool, progress: Progress |
     other = run_greedy(n_scheme, keeps_actions, progress, best.total_time)
     best = min(best, other, key=lambda one: (not one.is_over, one.total_time))
     if steps <= _FEW:
-        lanes = make_lanes(n_scheme)
+        lanes = make_lanes(n_scheme, most_visits=_VISITS + 2 * int(steps))
         other = _simulated(lanes.d_scheme, "aside", keeps_actions, progress, best.total_time)
         best = min(best, other, key=lambda one: (not one.is_over, one.total_time))
     return best

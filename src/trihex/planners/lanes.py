@@ -37,8 +37,17 @@ class Lanes(Record):
     d_scheme: DScheme
     sites: NDArray[np.int32]
 
+    @property
+    def ways(self) -> list[NDArray[np.int64]]:
+        """Cells of each lane, by number, without its destination."""
+        layout, bits = self.n_scheme.scenario.area.layout, self.d_scheme.directions_of_site[self.sites]
+        k = np.log2(np.maximum(bits, 1)).astype(np.int64)
+        following = self.sites + layout.offset_of_direction[self.sites & 1, k]
+        ends = np.flatnonzero(self.n_scheme.distance_of_site[following] == 0) + 1
+        return np.split(layout.site_to_cell(self.sites), ends)[:-1]
 
-def make_lanes(n_scheme: NScheme, *, all_there_are: bool = False) -> Lanes:
+
+def make_lanes(n_scheme: NScheme, *, all_there_are: bool = False, most_visits: int = 1 << 62) -> Lanes:
     """Make lanes from the robots, the farthest first, and let all other cells join them.
 
     The farthest robot gets the cheapest way to a destination. Each next one gets a lane if there is any, if need be by
@@ -52,12 +61,14 @@ def make_lanes(n_scheme: NScheme, *, all_there_are: bool = False) -> Lanes:
     n_scheme : NScheme
     all_there_are : bool
         Make lanes that are not worth their detours as well.
+    most_visits : int
+        Look for no more lanes after visits to so many nodes, each of which takes about a microsecond.
     """
     from trihex.kernels import lanes as kernels
 
     scenario = n_scheme.scenario
     layout, cost = scenario.area.layout, scenario.area.tessellation.cost_of_direction
-    starts, nodes = _linked(n_scheme, all_there_are)
+    starts, nodes = _linked(n_scheme, all_there_are, most_visits)
     along, direction = np.full(layout.size, NOT_REACHED, dtype=np.int32), np.zeros(layout.size, dtype=np.uint16)
     goals = layout.cell_to_site(scenario.destinations)
     along[goals] = 0
@@ -71,7 +82,7 @@ def make_lanes(n_scheme: NScheme, *, all_there_are: bool = False) -> Lanes:
     return Lanes(forest, DScheme(forest, read_only(directions)), read_only(sites))
 
 
-def _linked(n_scheme: NScheme, all_there_are: bool) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+def _linked(n_scheme: NScheme, all_there_are: bool, most_visits: int) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Return the sites of robots, the farthest first, and the nodes of `trihex.kernels.lanes` with all lanes."""
     from trihex.kernels import lanes as kernels
 
@@ -90,11 +101,13 @@ def _linked(n_scheme: NScheme, all_there_are: bool) -> tuple[NDArray[np.int32], 
     due = np.full(starts.size, kernels.NOBODY - 1, dtype=np.int64)
     ends, state = np.zeros(layout.size, dtype=np.int32), np.zeros(3, dtype=np.int64)
     graph = (layout.offset_of_direction, layout.vertex_of_direction, layout.ring_of_vertex, layout.via_of_ring)
-    while state[kernels.TRIED] < starts.size and state[kernels.FOUND] < entrances:
+    while state[kernels.TRIED] < starts.size and state[kernels.FOUND] < entrances and most_visits > 0:
+        before = state[kernels.VISITED]
         kernels.link(
             *(rules, starts, scenario.moves, distance, *graph, tessellation.cost_of_direction),
-            *(nodes, ends, due, seen, level, state, _BUDGET),
+            *(nodes, ends, due, seen, level, state, min(_BUDGET, most_visits)),
         )
+        most_visits -= int(state[kernels.VISITED] - before)
     return starts, nodes
 
 
