@@ -2,9 +2,9 @@
 
 Each robot in turn is sent along its cheapest path through the *residual graph* of the lanes so far: the path may lead
 against a lane, which then goes elsewhere from there (Busacker and Gowen 1961). A node that carries a lane is entered
-against it only. Nodes are sites, and size + number of a lattice vertex where nobody may cross. Node n costs at least
-``value + rise[n]`` from here on, where value is the distance of a site, of a vertex the least of those around it; rises
-are the dual prices that keep all residual arcs from costing less than what they come nearer (Edmonds and Karp 1972).
+against it only. Nodes are sites, and size + number of a lattice vertex where nobody may cross. Each has a *value*: what
+a way from it costs at least, at first the distance, of a vertex the least of those around it. Values rise as lanes are
+found, so that no residual arc costs less than what it comes nearer (Edmonds and Karp 1972): its *reduced* cost is >= 0.
 What is not touched stays 0, in arrays as in memory: nodes in arrays are given + 1.
 """
 
@@ -18,26 +18,26 @@ from trihex.kernels.signatures import IN_I32, IN_I64, IN_U16, OUT_I32, OUT_I64, 
 # Entries of the state: robots tried, lanes found, nodes visited.
 TRIED, FOUND, VISITED = range(3)
 SITE = (1 << 32) - 1
-NOBODY = 1 << 30  # rise of nodes from which nobody can reach a destination any more
-# Columns of the nodes: the node before and after on a lane (+ 1), what the lane paid to come here; the rise; the number
-# of the search that has seen the node, at which reduced cost, from which node and entering which (+ 1).
-BEFORE, AFTER, PAID, RISE, SEARCH, REDUCED, PARENT, ENTERED = range(8)
+NOBODY = 1 << 30  # value of nodes from which nobody can reach a destination any more
+# Columns of the nodes: the node before and after on a lane (+ 1), what the lane paid to come here; the value (+ 1); the
+# number of the search that has seen the node, at which reduced cost, from which node and entering which (+ 1).
+BEFORE, AFTER, PAID, VALUE, SEARCH, REDUCED, PARENT, ENTERED = range(8)
 COLUMNS = 8
 # In BEFORE: here a lane begins.
 BEGIN = -1
 
 
 @njit(nogil=True)
-def _value(node, moves, distance, ring, via, nodes):
-    """Return what a way from a node to a destination costs at least."""
+def _first_value(node, moves, distance, ring, via):
+    """Return what a way from a node to a destination costs at least, as long as there are no lanes."""
     if node < len(moves):
-        return np.int64(distance[node]) + nodes[node, RISE]
-    least = np.int64(NOT_REACHED)
+        return min(np.int64(distance[node]), NOBODY)
+    least = np.int64(NOBODY)
     for i in range(len(ring)):
         site = node - len(moves) + ring[i]
         if moves[site] & via[i]:
             least = min(least, np.int64(distance[site]))
-    return least + nodes[node, RISE]
+    return least
 
 
 @njit(nogil=True)
@@ -120,7 +120,7 @@ def _search(
             at = key >> 32
         else:
             break
-        value = _value(node, moves, distance, ring, via, nodes)
+        value = np.int64(nodes[node, VALUE]) - 1
         after = np.int64(nodes[node, AFTER]) - 1
         # Arc -1 leads back along the lane through the node.
         for i in range(-1, len(cost) if node < size else len(ring)):
@@ -152,9 +152,11 @@ def _search(
                 paid -= nodes[target, PAID]
             elif before == BEGIN or i < 0:
                 continue
-            if nodes[there, RISE] == NOBODY:
+            if nodes[there, VALUE] == 0:
+                nodes[there, VALUE] = 1 + _first_value(there, moves, distance, ring, via)
+            if nodes[there, VALUE] > NOBODY:
                 continue
-            reduced = at + paid + _value(there, moves, distance, ring, via, nodes) - value
+            reduced = at + paid + nodes[there, VALUE] - 1 - value
             if reduced > most:
                 is_limited = 1
                 continue
@@ -232,7 +234,9 @@ def link(
         root = start
         if nodes[start, BEFORE] > 0:  # the lane that passes here goes elsewhere
             root = np.int64(nodes[start, BEFORE]) - 1
-        most = due[state[TRIED] - 1] - _value(root, moves, distance, ring, via, nodes)
+        if nodes[root, VALUE] == 0:
+            nodes[root, VALUE] = 1 + _first_value(root, moves, distance, ring, via)
+        most = due[state[TRIED] - 1] - nodes[root, VALUE] + 1
         if root != start:
             most += nodes[start, PAID]
         if most < 0:
@@ -246,9 +250,9 @@ def link(
         for i in range(count):
             node = seen[i]
             if last < 0 and not is_limited:
-                nodes[node, RISE] = NOBODY
+                nodes[node, VALUE] = NOBODY + 1
             elif nodes[node, REDUCED] < best:
-                nodes[node, RISE] = min(nodes[node, RISE] + best - nodes[node, REDUCED], NOBODY)
+                nodes[node, VALUE] = min(nodes[node, VALUE] + best - nodes[node, REDUCED], NOBODY + 1)
         if last >= 0:
             _change_lanes(last, goal, first_vertex_move, moves, offset, vertex, cost, nodes)
             ends[goal] += 1

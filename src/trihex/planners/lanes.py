@@ -62,7 +62,7 @@ def make_lanes(n_scheme: NScheme, *, all_there_are: bool = False, most_visits: i
     all_there_are : bool
         Make lanes that are not worth their detours as well.
     most_visits : int
-        Look for no more lanes after visits to so many nodes, each of which takes about a microsecond.
+        Look for no more lanes after visits to so many nodes, each of which takes about a quarter of a microsecond.
     """
     from trihex.kernels import lanes as kernels
 
