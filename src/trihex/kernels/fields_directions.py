@@ -53,7 +53,7 @@ def _add_four(halves, at, offset, step, k, bits):
     for i in range(size):
         half = here[i]
         wanted = np.uint16(half - step) & HALF
-        found = _or_if(np.uint16(0), wanted == there0[i], bit0)
+        found = bit0 if wanted == there0[i] else np.uint16(0)
         found = _or_if(found, wanted == there1[i], bit1)
         found = _or_if(found, wanted == there2[i], bit2)
         found = _or_if(found, wanted == there3[i], bit3)
@@ -73,10 +73,10 @@ def _add_three(halves, at, offset, step, k, is_odd, bits):
         half = here[i]
         wanted = np.uint16(half - step) & HALF
         # Both are looked up and one is taken: a choice between two addresses would be a gather, half as fast.
-        even = _or_if(np.uint16(0), wanted == even0[i], bit0)
+        even = bit0 if wanted == even0[i] else np.uint16(0)
         even = _or_if(even, wanted == even1[i], bit1)
         even = _or_if(even, wanted == even2[i], bit2)
-        odd = _or_if(np.uint16(0), wanted == odd0[i], bit0)
+        odd = bit0 if wanted == odd0[i] else np.uint16(0)
         odd = _or_if(odd, wanted == odd1[i], bit1)
         odd = _or_if(odd, wanted == odd2[i], bit2)
         found = odd if is_odd[i] else even
