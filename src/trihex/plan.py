@@ -74,10 +74,11 @@ class Plan(Record):
                 f"first_action must rise from 0 to {self.actions.size} in {robots + 1} entries, one more than robots"
             )
         directions = self.scenario.area.tessellation.direction_count
-        bad = np.flatnonzero((self.actions >= directions) & (self.actions < JUMP))
+        odd = np.flatnonzero(self.actions - np.uint8(directions) <= JUMP - directions)  # from directions to JUMP
+        bad = odd[self.actions[odd] != JUMP]
         if bad.size:
             raise PlanError(f"actions must be directions 0..{directions - 1} or WAIT, not {self.actions[bad[0]]}")
-        if not np.array_equal(np.flatnonzero(self.actions == JUMP), self.jumps[:, 0]):
+        if not np.array_equal(odd, self.jumps[:, 0]):
             raise PlanError("jumps must list every JUMP of actions in ascending order")
         if ((self.jumps[:, 1] < 0) | (self.jumps[:, 1] >= self.scenario.area.cell_count)).any():
             raise PlanError("jumps must lead to cells of the area")

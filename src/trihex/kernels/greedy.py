@@ -112,7 +112,7 @@ def _move_up(
     moved = 0
     while True:
         parity = (hole & 1) << ROW
-        taker, taken, via, start = _NOBODY, 0, 0, 0
+        taker, taken, via, start = np.int64(_NOBODY), np.int64(0), 0, 0
         candidates, waiting = 0, 0
         for j in range(count):
             beside = hole + offset[_U(parity | j)]
@@ -250,7 +250,7 @@ def descend(
                 while word:
                     bit = word & -word
                     word ^= bit
-                    i = w << 6 | np.int64(trailing_zeros(bit))
+                    i = np.int64(w << 6 | trailing_zeros(bit))
                     at = np.int64(site[_U(i)])
                     parity = (at & 1) << ROW
                     here = cells[_U(at)]
@@ -279,7 +279,7 @@ def descend(
                             is_free &= entered_step[_U(to)] != step or entered_count[_U(to)] < capacity
                         sleeps = False
                     if not is_free:
-                        again |= 0 if sleeps else bit
+                        again |= bit * (not sleeps)
                         continue
                     waits -= 1
                     acted[_U(i)] = s

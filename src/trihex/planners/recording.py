@@ -98,7 +98,7 @@ class Recording:
         actions = np.empty(first_action[-1], dtype=np.uint8)
         while self._rows:  # one after the other, so that what is written is freed
             robot_of_row, action_of_row, steps, first_step = self._rows.pop()
-            write_rows(self.crowd.robot[robot_of_row], action_of_row, steps, first_step, first_action, actions)
+            write_rows(self.crowd.robot, robot_of_row, action_of_row, steps, first_step, first_action, actions)
         return Plan(self.crowd.scenario, actions, first_action, planner=planner)
 
     def make_arrivals(self, planner: str) -> Arrivals:
