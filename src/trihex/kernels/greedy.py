@@ -250,7 +250,7 @@ def descend(
                 while word:
                     bit = word & -word
                     word ^= bit
-                    i = np.int64(w << 6 | trailing_zeros(bit))
+                    i = w << 6 | trailing_zeros(bit)
                     at = np.int64(site[_U(i)])
                     parity = (at & 1) << ROW
                     here = cells[_U(at)]

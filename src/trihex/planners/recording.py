@@ -9,10 +9,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.arrivals import Arrivals
+from trihex.errors import TooLargeError
 from trihex.plan import WAIT, Plan
 from trihex.planners.crowd import Crowd
+from trihex.planners.memory import GIB, available_memory
 
 Progress = Callable[[int, int], None]
+# Below so many bytes nobody asks whether there is room; and the part of what is free that may be taken.
+_SMALL = 1 << 26
+_PART = 0.9
 
 
 class Rows(NamedTuple):
@@ -38,6 +43,7 @@ class Recording:
         self.crowd = crowd
         self.keeps_actions = keeps_actions
         self._rows: list[Rows] = []
+        self._kept = 0  # actions in rows
         tessellation = crowd.scenario.area.tessellation
         self._cost_of_action = np.full(WAIT + 1, crowd.scenario.waiting_cost, dtype=np.int64)
         self._cost_of_action[: tessellation.direction_count] = tessellation.cost_of_direction
@@ -60,11 +66,18 @@ class Recording:
 
         ``simulate(block, first_step, steps, regions, robot_of_row, action_of_row)`` lets the robots of some regions
         act for a block of steps, and adds to `lost`.
+
+        Raises
+        ------
+        TooLargeError
+            If the plan takes more memory than is free: before the first step where the ways alone are that long, else
+            as soon as what robots have waited makes it so.
         """
         crowd, first_step, block = self.crowd, 0, 0
         going = crowd.going
         while not self.is_over:
             steps, block = crowd.steps_of_block(), block + 1
+            self._check_memory(steps)
             for regions in crowd.parts(steps):
                 count = int(crowd.count_of_region[regions].sum())
                 rows = Rows(np.empty(count, np.int32), np.empty(count * steps, np.uint8), steps, first_step)
@@ -76,11 +89,33 @@ class Recording:
             if progress is not None:
                 progress(going - crowd.going, going)
 
+    def _check_memory(self, steps: int) -> None:
+        """Refuse to go on for so many steps if what is left to record and the plan take more memory than is free.
+
+        The plan is written from rows that are recorded, so for a while there are both. An action costs no more than
+        the dearest one, so times tell how many there must be.
+        """
+        if not self.keeps_actions:
+            return
+        dearest = int(self._cost_of_action[: self.crowd.scenario.area.tessellation.direction_count].max())
+        plan = self.crowd.total_distance // dearest
+        plan = max(plan, self.total_time // max(dearest, self.crowd.scenario.waiting_cost))
+        need = plan + max(self.crowd.going * steps, plan - self._kept)
+        if need < _SMALL:
+            return
+        free = int(available_memory() * _PART)
+        if need > free:
+            raise TooLargeError(
+                f"the plan would take {need / GIB:.1f} GiB more, if it has no more than {plan} actions, and "
+                f"{free / GIB:.1f} GiB are free; plan fewer robots, or keep arrivals only (record='arrivals')"
+            )
+
     def _keep(self, rows: Rows) -> None:
         from trihex.kernels.rows import add_times
 
         if self.keeps_actions:
             self._rows.append(rows)
+            self._kept += rows.action_of_row.size
         else:
             add_times(*rows, self.crowd.arrival, self._cost_of_action, self._time)
 

@@ -2,23 +2,16 @@
 
 from __future__ import annotations
 
-import os
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from trihex.errors import TooLargeError
+from trihex.planners.memory import GIB, available_memory
 from trihex.schemes import NOT_REACHED, NScheme
 
 _BUDGET = 200_000  # nodes looked at in one call of a kernel
-_GIB = 1 << 30
-
-
-def available_memory() -> int:
-    """Return how many bytes of memory are free, or all that the machine has where that cannot be told."""
-    pages = "SC_AVPHYS_PAGES" if "SC_AVPHYS_PAGES" in os.sysconf_names else "SC_PHYS_PAGES"
-    return int(os.sysconf("SC_PAGE_SIZE") * os.sysconf(pages))
 
 
 class Reservations:
@@ -86,8 +79,8 @@ class Reservations:
         need = rows * (size * (1 + self._forbids) + 4 * ends)
         if need > self._limit:
             raise TooLargeError(
-                f"reservations would take {need / _GIB:.1f} GiB ({rows} steps of {size} cells), more than "
-                f"memory_limit, {self._limit / _GIB:.1f} GiB; plan fewer robots, a smaller area, or with fcost"
+                f"reservations would take {need / GIB:.1f} GiB ({rows} steps of {size} cells), more than "
+                f"memory_limit, {self._limit / GIB:.1f} GiB; plan fewer robots, a smaller area, or with fcost"
             )
         self.reserved = _grown(self.reserved, rows * size)
         self.passed = _grown(self.passed, rows * size * self._forbids)
