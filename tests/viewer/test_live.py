@@ -229,6 +229,26 @@ def test_walls_are_painted_while_robots_run(open_viewer, tmp_path, tessellation)
     assert shown.faults == []
 
 
+def test_a_wall_that_is_held_closes_when_the_robot_in_it_has_gone(open_viewer):
+    shown = open_viewer(th.Scenario(th.Area("square", np.zeros((3, 60))), [(59, 1)], [(1, 1), (0, 1)]))
+    shown.press("Run live")
+    shown.press("Pause")
+    shown.wait("!app.live.isAsking && !app.live.frames.length && app.live.fraction === 1")
+    first = shown.ask("app.doc.robots[0]") % 60
+    shown.page.mouse.move(*map(float, shown.place(first, 1)))
+    shown.page.mouse.down()
+    shown.wait("document.querySelector('.status').textContent.includes('stands at')")
+    for behind in (1, 0):  # the second robot comes into the cell, then it is free
+        assert not shown.ask(f"app.doc.barriers[60 + {first}]")
+        step = shown.ask("app.live.last.step")
+        shown.page.keyboard.press(".")
+        shown.wait(f"app.live.last.step === {step + 1} && app.live.fraction === 1 && !app.live.events.length")
+        assert shown.ask(f"app.doc.robots.includes(60 + {first})") == bool(behind)
+    shown.wait(f"app.doc.barriers[60 + {first}]")
+    shown.page.mouse.up()
+    assert shown.faults == []
+
+
 def test_fog_lifts_where_robots_come_and_the_changed_world_can_be_kept(open_viewer):
     scenario = house("hexagonal", robots=2)
     shown = open_viewer(scenario)

@@ -17,7 +17,7 @@ COMMANDS = {
     "study": "Do many runs as one table, by many processes or a cluster.",
     "check": "Tell whether a plan is safe.",
     "animate": "Draw the robots of a plan on their way.",
-    "view": "Open the viewer: paint, plan, play and compare in a browser.",
+    "view": "Open the viewer: paint, plan, play, compare and run live in a browser.",
     "show": "Tell what an area is like.",
     "generate": "Make an area: random, rooms, maze, caves or warehouse.",
     "convert": "Write a plan, an area or a scenario in another format.",

@@ -20,7 +20,7 @@ from trihex.cli.types import Whole
 @click.option("--port", type=Whole(0), default=0, help="Port of the server. [default: a free one]")
 @click.option("--no-browser", is_flag=True, help="Only tell the address.")
 def command(file: Path | None, area: Path | None, port: int, no_browser: bool, **options: Any) -> None:
-    """Open the viewer: paint, plan, play and compare in a browser.
+    """Open the viewer: paint, plan, play, compare and run live in a browser.
 
     FILE is an area, a scenario or a plan; a plan as .csv or .parquet needs AREA as well. Without FILE there are some
     rooms to play with. Files are opened and saved in the folder in which the command was started, and below it.

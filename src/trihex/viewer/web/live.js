@@ -78,7 +78,7 @@ export const withLive = (Base) => class extends Base {
     this.live = {
       name: answer.header.live, before: { doc, runs, fields }, delays, last: answer.header, askedStep: answer.header.step, summary: null,
       crowd: new Crowd(), world: new Uint8Array(cells), distance: new Int32Array(cells), known: sense === null ? null : new Uint8Array(cells),
-      events: [], frames: [], refused: [], curves: { arrived: [0], waiting: [0] },
+      events: [], frames: [], refused: [], gaps: new Set(), curves: { arrived: [0], waiting: [0] },
       fraction: 1, stride: 1, shownStep: answer.header.step, latency: 0.02, isPlaying: true, isAsking: false, wantsStep: false,
     };
     Object.assign(this, { runs: [null, null], clock: 0, isPlaying: false, doc: { ...doc, barriers: new Uint8Array(cells) } });
@@ -166,6 +166,7 @@ export const withLive = (Base) => class extends Base {
     pane.doc = this.doc;
     pane.known = live.known;
     if (cells.length || farther.length) pane.changed("base");
+    if (live.gaps.size) this.closeGaps();
     this.tellRefused(header);
     if (header.is_over && !wasOver && header.step) this.liveIsOver();
     if (!header.is_over && wasOver) Object.assign(live, { summary: null });
@@ -194,8 +195,24 @@ export const withLive = (Base) => class extends Base {
   tellRefused({ refused, refused_count: count }) {
     const { live } = this, until = performance.now() + REFUSED_FOR;
     if (!count) return;
-    for (const { cell } of refused) if (cell) live.refused.push({ cell: cell[1] * this.doc.width + cell[0], until });
+    for (const { cell, kind } of refused) {
+      if (!cell) continue;
+      const place = cell[1] * this.doc.width + cell[0];
+      live.refused.push({ cell: place, until });
+      if (kind === "barrier" && this.stroke?.kind === "wall" && this.doc.robots.includes(place)) live.gaps.add(place);
+    }
     this.say(`Not done: ${refused[0].why}${count > 1 ? `, and ${number(count - 1)} more` : ""}.`, true);
+  }
+
+  // While the hand holds the tool down, its wall closes as soon as those who stood in it have gone.
+  closeGaps() {
+    const { gaps } = this.live, taken = new Set(this.doc.robots);
+    if (this.stroke?.kind !== "wall") return gaps.clear();
+    for (const cell of gaps) {
+      if (taken.has(cell)) continue;
+      gaps.delete(cell);
+      this.tell("barrier", cell);
+    }
   }
 
   async liveIsOver() {
