@@ -1,13 +1,14 @@
 """Robots that weigh a longer way against waiting: the paper's Fcost = v + V + w_t * c, with c by look-up.
 
-Regions, blocks, rows and who is asked first are those of `trihex.kernels.greedy`, branches and slots those of
-`trihex.kernels.slots`.
+Regions, blocks, rows and the tables of moves are those of `trihex.kernels.greedy`, as is why indices are made unsigned
+(it saves a sixth); branches and slots are those of `trihex.kernels.slots`.
 """
 
 import numpy as np
 from numba import njit, types
 from numba.cpython.unsafe.numbers import trailing_zeros
 
+from trihex.kernels.greedy import ROW
 from trihex.kernels.signatures import IN_I32, IN_I64, IN_U16, OUT_I32, OUT_I64, OUT_U8, TABLE_I32
 from trihex.kernels.slots import LEAD, count_meetings, find_slot, line_up
 
@@ -18,6 +19,7 @@ MEETINGS, QUEUE = 0, 1
 STAY, WORTH, ALWAYS = 0, 1, 2
 WAIT = 255
 _FAR = 1 << 60
+_U = np.uint64
 
 
 @njit(nogil=True)
@@ -47,7 +49,7 @@ def _find_captain(captain, site_of_robot, robot_at, best, offset):
 
 @njit(
     types.void(
-        *[IN_I64, TABLE_I32, TABLE_I32, IN_I32, types.int64, types.int64, types.int64],
+        *[IN_I64, TABLE_I32, IN_I32, IN_I32, IN_I32, types.int64, types.int64, types.int64],
         *[IN_I32, IN_U16, IN_U16, OUT_I32, OUT_I64, OUT_I32, OUT_I32],
         *[IN_I32, IN_I64, IN_I32, OUT_I32, OUT_I32, OUT_I32, OUT_I64, OUT_I64],
         *[IN_I64, IN_I64, IN_I64, IN_I64, OUT_I64, OUT_I32, OUT_I32],
@@ -59,6 +61,7 @@ def _find_captain(captain, site_of_robot, robot_at, best, offset):
 )
 def weigh(
     rules,
+    table,
     offset,
     vertex,
     cost,
@@ -139,54 +142,54 @@ def weigh(
             captain = captain_of_region[region]
             if captain == 0 or site_of_robot[captain] == 0:
                 captain = listed[first]
-            captain = _find_captain(captain, site_of_robot, robot_at, best_moves, offset)
+            captain = _find_captain(captain, site_of_robot, robot_at, best_moves, table)
             captain_of_region[region] = captain
             kept = first
             for j in range(first - 1, first + count_of_region[region]):
                 own = listed[j] if j >= first else captain
                 robot = own
                 depth = 0
-                while asked[own] != step:
-                    site = site_of_robot[robot]
-                    parity = site & 1
-                    own_distance = distance[site]
-                    own_slot = slot[site]
-                    descends = robot == captain or (counts == MEETINGS and line[own_slot] & LEAD != 0)
+                while asked[_U(own)] != step:
+                    site = np.int64(site_of_robot[_U(robot)])
+                    parity = (site & 1) << ROW
+                    own_distance = distance[_U(site)]
+                    own_slot = slot[_U(site)]
+                    descends = robot == captain or (counts == MEETINGS and line[_U(own_slot)] & LEAD != 0)
                     best = _FAR  # Fcost of the best direction, and of the best that is free
                     least = _FAR
                     taken = WAIT
                     to = site
                     via = 0
                     other = np.int32(0)
-                    untried = best_moves[site]
+                    untried = best_moves[_U(site)]
                     while untried:
                         k = np.int64(trailing_zeros(untried))
                         untried &= untried - np.uint16(1)
-                        target = site + offset[parity, k]
-                        its_slot = slot[target]
+                        target = site + offset[_U(parity | k)]
+                        its_slot = slot[_U(target)]
                         if its_slot == 0:
                             its_slot = find_slot(
-                                target, best_moves, offset, branch_of_end, first_slot, branch_of_slot, slot
+                                target, best_moves, table, branch_of_end, first_slot, branch_of_slot, slot
                             )
                         fcost = np.int64(own_distance)
                         if its_slot > 0:
                             if its_slot < low or its_slot >= high:
                                 continue
-                            collisions = (line[its_slot + 1] & (LEAD - 1)) - (its_slot + 1 == own_slot)
+                            collisions = (line[_U(its_slot + 1)] & (LEAD - 1)) - (its_slot + 1 == own_slot)
                             fcost += price * collisions
                         elif its_slot < low_end or its_slot > high_end:
                             continue
                         best = min(best, fcost)
-                        other = robot_at[target]
+                        other = robot_at[_U(target)]
                         if other:
-                            if other > own and asked[other] != step:  # those listed before have been asked
+                            if other > own and asked[_U(other)] != step:  # those listed before have been asked
                                 break
                             other = np.int32(0)
                             continue
-                        at = (site + vertex[parity, k]) * (k >= first_vertex_move)
-                        if passed[at] >> 32 == block and passed[at] >> s & 1:
+                        at = (site + vertex[_U(parity | k)]) * (k >= first_vertex_move)
+                        if passed[_U(at)] >> 32 == block and passed[_U(at)] >> s & 1:
                             continue
-                        if capacity > 0 and entered_step[target] == step and entered_count[target] >= capacity:
+                        if capacity > 0 and entered_step[_U(target)] == step and entered_count[_U(target)] >= capacity:
                             continue
                         if fcost < least:
                             least = fcost
@@ -196,74 +199,74 @@ def weigh(
                             if descends:
                                 break
                     if other and j >= first:
-                        waiting_for_other[depth] = robot
+                        waiting_for_other[_U(depth)] = robot
                         depth += 1
                         robot = other
                         continue
                     if descends and taken != WAIT:
-                        line[own_slot] &= LEAD - 1
+                        line[_U(own_slot)] &= LEAD - 1
                     elif least > own_distance and (counts == MEETINGS or taken == WAIT or (step + robot) % period == 0):
-                        untried = moves[site] & ~best_moves[site]
+                        untried = moves[_U(site)] & ~best_moves[_U(site)]
                         while untried:
                             k = np.int64(trailing_zeros(untried))
                             untried &= untried - np.uint16(1)
-                            target = site + offset[parity, k]
-                            fcost = np.int64(cost[k]) + distance[target]
+                            target = site + offset[_U(parity | k)]
+                            fcost = np.int64(cost[_U(k)]) + distance[_U(target)]
                             if fcost >= least:
                                 continue
-                            its_slot = slot[target]
+                            its_slot = slot[_U(target)]
                             if its_slot == 0:
                                 its_slot = find_slot(
-                                    target, best_moves, offset, branch_of_end, first_slot, branch_of_slot, slot
+                                    target, best_moves, table, branch_of_end, first_slot, branch_of_slot, slot
                                 )
                             if its_slot < low or its_slot >= high:
                                 continue
-                            collisions = (line[its_slot + 1] & (LEAD - 1)) - (its_slot + 1 == own_slot)
+                            collisions = (line[_U(its_slot + 1)] & (LEAD - 1)) - (its_slot + 1 == own_slot)
                             fcost += price * collisions
                             best = min(best, fcost)
-                            if fcost >= least or robot_at[target]:
+                            if fcost >= least or robot_at[_U(target)]:
                                 continue
-                            at = (site + vertex[parity, k]) * (k >= first_vertex_move)
-                            if passed[at] >> 32 == block and passed[at] >> s & 1:
+                            at = (site + vertex[_U(parity | k)]) * (k >= first_vertex_move)
+                            if passed[_U(at)] >> 32 == block and passed[_U(at)] >> s & 1:
                                 continue
                             least = fcost
                             taken = k
                             to = target
                             via = at
                         if taken != WAIT and least != best and least >= best + waiting_cost:
-                            stays = aside == STAY or distance[to] > own_distance
+                            stays = aside == STAY or distance[_U(to)] > own_distance
                             stays |= aside == WORTH and least > best + waiting_cost
-                            stays |= aside == ALWAYS and distance[to] == own_distance and to == came_from[robot]
+                            stays |= aside == ALWAYS and distance[_U(to)] == own_distance and to == came_from[_U(robot)]
                             if stays:
                                 taken = WAIT
                                 to = site
                                 via = 0
-                    asked[robot] = step
-                    action_of_row[row_of_robot[robot] * steps + s] = taken
+                    asked[_U(robot)] = step
+                    action_of_row[_U(row_of_robot[_U(robot)] * steps + s)] = taken
                     if taken == WAIT:
                         loss += waiting_cost
                     else:
-                        loss += cost[taken] + distance[to] - own_distance
-                        before = passed[via] if passed[via] >> 32 == block else block << 32
-                        passed[via] = before | 1 << s if via else 0
-                        came_from[robot] = site
-                        robot_at[site] = 0
-                        count[own_slot] -= 1
-                        if slot[to] < 0:
-                            arrival[robot] = step
-                            site_of_robot[robot] = 0
+                        loss += cost[_U(taken)] + distance[_U(to)] - own_distance
+                        before = passed[_U(via)] if passed[_U(via)] >> 32 == block else block << 32
+                        passed[_U(via)] = before | 1 << s if via else 0
+                        came_from[_U(robot)] = site
+                        robot_at[_U(site)] = 0
+                        count[_U(own_slot)] -= 1
+                        if slot[_U(to)] < 0:
+                            arrival[_U(robot)] = step
+                            site_of_robot[_U(robot)] = 0
                             if capacity > 0:
-                                entered_count[to] = 1 + entered_count[to] * (entered_step[to] == step)
-                                entered_step[to] = step
+                                entered_count[_U(to)] = 1 + entered_count[_U(to)] * (entered_step[_U(to)] == step)
+                                entered_step[_U(to)] = step
                         else:
-                            robot_at[to] = robot
-                            site_of_robot[robot] = to
-                            count[slot[to]] += 1
+                            robot_at[_U(to)] = robot
+                            site_of_robot[_U(robot)] = to
+                            count[_U(slot[_U(to)])] += 1
                     if depth > 0:
                         depth -= 1
-                        robot = waiting_for_other[depth]
+                        robot = waiting_for_other[_U(depth)]
                 if j >= first:
-                    listed[kept] = own
-                    kept += site_of_robot[own] > 0
+                    listed[_U(kept)] = own
+                    kept += site_of_robot[_U(own)] > 0
             count_of_region[region] = kept - first
     lost[0] += loss

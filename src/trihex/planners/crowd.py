@@ -119,3 +119,17 @@ def _sorted_by(values: NDArray[Any], order: NDArray[np.int64]) -> NDArray[np.int
     keys = values[order].astype(np.int64) << 31 | np.arange(order.size)
     keys.sort()
     return np.asarray(order[keys & 0x7FFFFFFF])
+
+
+def tables_of(scenario: Scenario) -> list[NDArray[np.int32]]:
+    """Return what a move adds to the site, what to the site makes its vertex, and the direction of the move back.
+
+    Each flat, with a row of 16 directions for each parity of sites.
+    """
+    layout = scenario.area.layout
+    offset = layout.offset_of_direction
+    there = (np.arange(2)[:, None] + offset) & 1
+    back = np.argmax(offset[there] == -offset[:, :, None], axis=2)
+    many = 16 - offset.shape[1]
+    tables = (offset, layout.vertex_of_direction, back)
+    return [np.pad(table, ((0, 0), (0, many))).astype(np.int32).reshape(-1) for table in tables]

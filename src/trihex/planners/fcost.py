@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from trihex.arrivals import Arrivals
 from trihex.errors import PlanError, check_choice
 from trihex.plan import Plan
-from trihex.planners.crowd import make_crowd, regions_of
+from trihex.planners.crowd import make_crowd, regions_of, tables_of
 from trihex.planners.greedy import run_greedy
 from trihex.planners.lanes import make_lanes, price_of_waiting
 from trihex.planners.recording import Progress, Recording
@@ -178,7 +178,7 @@ def _simulated(
         action_of_row: NDArray[np.uint8],
     ) -> None:
         kernels.weigh(
-            *(rules, layout.offset_of_direction, layout.vertex_of_direction, tessellation.cost_of_direction),
+            *(rules, layout.offset_of_direction, *tables_of(scenario)[:2], tessellation.cost_of_direction),
             *(block, first_step, steps),
             *(d_scheme.n_scheme.distance_of_site, slots.directions, scenario.moves),
             *(crowd.robot_at, crowd.passed, *crowd.entered),

@@ -7,9 +7,8 @@ from numpy.typing import NDArray
 
 from trihex.arrivals import Arrivals
 from trihex.plan import Plan
-from trihex.planners.crowd import make_crowd, regions_of
+from trihex.planners.crowd import make_crowd, regions_of, tables_of
 from trihex.planners.recording import Progress, Recording
-from trihex.scenario import Scenario
 from trihex.schemes import NScheme, make_d_scheme
 
 
@@ -49,7 +48,7 @@ def run_greedy(
     region_of_site = np.zeros(layout.size, dtype=np.int32)
     region_of_site[destinations] = regions_of(scenario) + 1
 
-    tables = _tables(scenario)
+    tables = tables_of(scenario)
 
     def find_regions(starts: NDArray[np.int32]) -> NDArray[np.int64]:
         region = np.empty(starts.size, dtype=np.int32)
@@ -79,17 +78,3 @@ def run_greedy(
 
     recording.run(simulate, progress, limit)
     return recording
-
-
-def _tables(scenario: Scenario) -> list[NDArray[np.int32]]:
-    """Return what a move adds to the site, what to the site makes its vertex, and the direction of the move back.
-
-    Each flat, with a row of 16 directions for each parity of sites.
-    """
-    layout = scenario.area.layout
-    offset = layout.offset_of_direction
-    there = (np.arange(2)[:, None] + offset) & 1
-    back = np.argmax(offset[there] == -offset[:, :, None], axis=2)
-    many = 16 - offset.shape[1]
-    tables = (offset, layout.vertex_of_direction, back)
-    return [np.pad(table, ((0, 0), (0, many))).astype(np.int32).reshape(-1) for table in tables]
