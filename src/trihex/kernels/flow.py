@@ -11,83 +11,58 @@ are crowded the search back is the quicker, where robots hardly meet the search 
 
 from numba import njit, types
 
+from trihex.kernels.flow_back import BITS, NEVER, forget_back, look_back, turn_back
 from trihex.kernels.flow_search import (
+    AGE,
     AT,
     BUDGET_SPENT,
     CURRENT,
-    DEAD,
+    DONE,
     ENDS,
     EXHAUSTED,
     EXTRA,
     FAR_AWAY,
+    FIRST_ROBOT,
     FOUND,
-    FROM,
+    LAST,
+    LAST_ROBOT,
     LAYER,
+    LAYERS,
+    LAYERS_FULL,
+    LEVEL,
+    LEVELS_FULL,
     LIST_FULL,
     LOGGED,
     MARK,
+    MOST_LEVEL,
     NODE,
     NODES,
     NONE,
     OFFSET,
+    OPEN_GOALS,
     OTHER,
-    OWN,
-    PLACE,
+    QUOTA,
     ROOT,
-    ROW,
     SEARCH,
+    SERVED,
+    SERVED_THEN,
     SHORT,
-    START,
-    VIA,
+    SIDE,
+    SPARE_ROWS,
+    SPENT,
+    TOTAL,
+    TURN,
     forget,
     leave,
     step_ahead,
-    step_back,
+    turn_ahead,
     visit,
 )
 from trihex.kernels.signatures import OUT_I64
 
-# What a call ends with, besides BUDGET_SPENT and LIST_FULL.
-DONE, LAYERS_FULL, LEVELS_FULL = range(4, 7)
-# Places in `state`.
-LEVEL, SERVED, TOTAL, TURN, QUOTA, LAYERS, OPEN_GOALS, SPENT, FIRST_ROBOT, LAST_ROBOT = range(10)
-AGE, SERVED_THEN, SIDE = range(10, 13)
-STATE_SIZE = 13
 # Whose turn it is.
 NEXT_LEVEL, BACK, AHEAD = range(3)
-MOST_LEVEL = 1 << 29
 FIRST_QUOTA = 256
-
-
-@njit(nogil=True)
-def _look_back(layer, nodes, search, ends, state, budget):
-    """Search back from open destinations for a robot without path; it is then the entry under way."""
-    size = len(layer.hops)
-    own, log = search.state, search.log
-    out, into, hops, first_goal = layer.out, layer.into, layer.hops, layer.first_goal
-    flow, since, away = nodes.flow, nodes.since, ends.away
-    lacks, goals = ends.lacks, ends.goals
-    for _ in range(budget):
-        if own[CURRENT] != NONE:
-            if own[LOGGED] == len(log):
-                return LIST_FULL
-            entry = own[CURRENT]
-            node = log[entry, NODE]
-            if lacks[node] and log[entry, ROW] == hops[node]:
-                return FOUND
-            if not step_back(entry, out, into, hops, first_goal, flow, since, away, log, own):
-                leave(since, log, own)
-            continue
-        own[SHORT] = MARK
-        if own[ROOT] == state[OPEN_GOALS]:
-            return EXHAUSTED
-        at = goals[state[OPEN_GOALS] - 1 - own[ROOT]]  # latest first: with time to spare nobody pays more
-        own[ROOT] += 1
-        row = at // size
-        slack = state[LEVEL] - layer.base * row
-        if flow[at] < layer.capacity and slack % layer.grain == 0 and slack >= since[at]:
-            visit(at, at % size, row, slack, NONE, 0, since, log, own)
-    return BUDGET_SPENT
 
 
 @njit(nogil=True)
@@ -116,52 +91,6 @@ def _look_ahead(layer, nodes, search, ends, state, budget):
         if lacks[at % size] and slack >= ahead[at]:
             visit(at, at % size, 0, slack, NONE, 0, ahead, log, own)
     return BUDGET_SPENT
-
-
-@njit(nogil=True)
-def _turn_back(layer, nodes, search):
-    """Let a robot go from the entry under way to the root; return the node where it starts."""
-    log = search.log
-    entry = search.state[CURRENT]
-    start = log[entry, NODE]
-    nodes.flow[log[entry, AT]] = START << 4
-    while log[entry, FROM] >= 0:
-        via = log[entry, VIA]
-        entry = log[entry, FROM]
-        to, node = log[entry, AT], log[entry, NODE]
-        if via == OWN:  # nobody passes there any more
-            nodes.flow[to] = 0
-            continue
-        tail = to + layer.into[node, via, OFFSET]
-        nodes.flow[tail] = (nodes.flow[tail] & 0xF0) | (layer.into[node, via, PLACE] + 1)
-        if node < layer.first_goal:
-            nodes.flow[to] = (nodes.flow[to] & 15) | ((via + 1) << 4)
-    nodes.flow[log[entry, AT]] += 1
-    return start
-
-
-@njit(nogil=True)
-def _turn_ahead(layer, nodes, search):
-    """Let a robot go from the root to the entry under way; return the node where it starts."""
-    log = search.log
-    entry = search.state[CURRENT]
-    nodes.flow[log[entry, AT]] += 1
-    while log[entry, FROM] >= 0:
-        via = log[entry, VIA]
-        entry = log[entry, FROM]
-        at, node = log[entry, AT], log[entry, NODE]
-        if node >= layer.first_goal:
-            continue
-        if via == OWN:
-            nodes.flow[at] = 0
-            continue
-        head = at + layer.out[node, via, OFFSET]
-        nodes.flow[at] = (nodes.flow[at] & 0xF0) | (via + 1)
-        if layer.out[node, via, OTHER] < layer.first_goal:
-            nodes.flow[head] = (nodes.flow[head] & 15) | ((layer.out[node, via, PLACE] + 1) << 4)
-    at = log[entry, AT]
-    nodes.flow[at] = (nodes.flow[at] & 15) | (START << 4)
-    return log[entry, NODE]
 
 
 @njit(nogil=True)
@@ -210,7 +139,7 @@ def _open_layer(row, layer, nodes, ends):
     size = len(layer.hops)
     for node in layer.order:
         at = row * size + node
-        best = DEAD
+        best = NEVER
         if row == layer.hops[node] and not layer.is_vertex[node]:  # step 0
             if ends.lacks[node]:
                 best = 0
@@ -219,8 +148,8 @@ def _open_layer(row, layer, nodes, ends):
                 offset = layer.into[node, j, OFFSET]
                 if offset == 0:
                     break
-                best = min(best, nodes.since[at + offset] + layer.into[node, j, EXTRA])
-        nodes.since[at] = min(best, DEAD)
+                best = min(best, (nodes.since[at + offset] >> BITS) + layer.into[node, j, EXTRA])
+        nodes.since[at] = min(best, NEVER) << BITS
 
 
 @njit(nogil=True)
@@ -228,7 +157,7 @@ def _start_level(layer, nodes, back, ahead, ends, state):
     """Open what may be used at the next level and list the roots of the searches."""
     size = len(layer.hops)
     row = (state[LEVEL] + 1) // layer.base
-    if (row + 4) * size > len(nodes.flow):
+    if (row + SPARE_ROWS) * size > len(nodes.flow):
         return LAYERS_FULL
     if state[LEVEL] == MOST_LEVEL:
         return LEVELS_FULL
@@ -236,7 +165,7 @@ def _start_level(layer, nodes, back, ahead, ends, state):
     count = 0
     for k in range(state[OPEN_GOALS]):
         at = ends.goals[k]
-        if nodes.flow[at] < layer.capacity and nodes.since[at] < DEAD:
+        if nodes.flow[at] < layer.capacity and nodes.since[at] < NEVER << BITS:
             ends.goals[count] = at
             count += 1
     if row == state[LAYERS]:
@@ -251,7 +180,6 @@ def _start_level(layer, nodes, back, ahead, ends, state):
         state[LAST_ROBOT] += 1
     while state[FIRST_ROBOT] < state[LAST_ROBOT] and not ends.lacks[ends.start[state[FIRST_ROBOT]] % size]:
         state[FIRST_ROBOT] += 1
-    back.state[ROOT] = 0
     ahead.state[ROOT] = state[FIRST_ROBOT]
     state[QUOTA] = FIRST_QUOTA
     state[TURN] = state[SIDE]
@@ -276,9 +204,9 @@ def search(layer, nodes, back, ahead, ends, state, budget):
         if state[TURN] == BACK:
             if state[AGE] > len(layer.hops) // 4 and state[SERVED] > state[SERVED_THEN]:
                 _spread(layer, ends, state)
-                forget(nodes.since, back, 0)
+                forget_back(nodes.since, back, 0)
             state[AGE] += quota
-            status = _look_back(layer, nodes, back, ends, state, quota)
+            status = look_back(layer, nodes, back, ends, state, quota)
         else:
             status = _look_ahead(layer, nodes, ahead, ends, state, quota)
         if status == LIST_FULL:
@@ -289,14 +217,19 @@ def search(layer, nodes, back, ahead, ends, state, budget):
             state[TURN] = BACK + AHEAD - state[TURN]
             continue
         if status == FOUND:
-            start = _turn_back(layer, nodes, back) if state[TURN] == BACK else _turn_ahead(layer, nodes, ahead)
+            if state[TURN] == BACK:
+                start = turn_back(layer, nodes, back.log, back.state[LAST])
+            else:
+                start = turn_ahead(layer.out, layer.into, layer.first_goal, nodes.flow, ahead.log, ahead.state[CURRENT])
             ends.lacks[start] = 0
             state[SIDE] = state[TURN]
             state[SERVED] += 1
             state[TOTAL] += state[LEVEL]
             state[QUOTA] = FIRST_QUOTA
+            more = 0
         else:
+            more = back.state[SHORT] if state[TURN] == BACK else layer.grain
             state[TURN] = NEXT_LEVEL
-        forget(nodes.since, back, layer.grain if status == EXHAUSTED else 0)
-        forget(nodes.ahead, ahead, 1 if status == EXHAUSTED else 0)
+        forget_back(nodes.since, back, more)
+        forget(nodes.ahead, ahead, min(more, 1))
     return BUDGET_SPENT

@@ -19,12 +19,24 @@ from numba import njit, types
 from trihex.kernels.signatures import IN_BOOL, IN_I32, IN_I64, OUT_I32, OUT_I64, OUT_U8
 
 # What a search ends with.
-BUDGET_SPENT, LIST_FULL, FOUND, EXHAUSTED = range(4)
-# Places in the state of a search: length of its log, entry under way, next root, least shortfall.
-LOGGED, CURRENT, ROOT, SHORT = range(4)
+BUDGET_SPENT, LIST_FULL, FOUND, EXHAUSTED, DONE, LAYERS_FULL, LEVELS_FULL, GIVEN_UP = range(8)
+# Places in the state of a search: length of its log, entry under way, next root, least shortfall, entry found.
+LOGGED, CURRENT, ROOT, SHORT, LAST = range(5)
+SEARCH_STATE_SIZE = 5
+# Places in the state of the whole.
+LEVEL, SERVED, TOTAL, TURN, QUOTA, LAYERS, OPEN_GOALS, SPENT, FIRST_ROBOT, LAST_ROBOT = range(10)
+AGE, SERVED_THEN, SIDE, VISITS = range(10, 14)
+STATE_SIZE = 14
+MOST_LEVEL = 1 << 23
+# Layers beyond that of a node that its neighbours may lie in.
+SPARE_ROWS = 4
+# Lists of the searches by A*: one for each number of flows turned back, then one for each higher cost.
+TURN_LISTS, LISTS = 512, 4096
 # Columns of the log: index, node and (search back only) layer; slack; entry it was visited from and by which arc;
 # places of the arcs that have been tried, as bits; first entry that is known to be reached from here.
 AT, NODE, ROW, SLACK, FROM, VIA, TRIED, LOW = range(8)
+# In the searches by A* in place of the last two: flows turned back on the way, next entry of the same list.
+TURNS, NEXT = TRIED, LOW
 # Columns of the arcs: see `trihex.planners.network`.
 OFFSET, REDUCED, PLACE, EXTRA, OTHER, ROWS = range(6)
 # Flow of a node: place + 1 of the arc out in the low four bits, of the arc in in the high four; a robot starts there.
@@ -66,10 +78,11 @@ class Nodes(NamedTuple):
 
 
 class Search(NamedTuple):
-    """What was visited, and the state."""
+    """What was visited, the state, and first entries of the lists of what is to be visited."""
 
     log: Any
     state: Any
+    heads: Any
 
 
 class Ends(NamedTuple):
@@ -89,7 +102,7 @@ class Ends(NamedTuple):
 TABLE = types.Array(types.int32, 3, "C", readonly=True)
 LAYER = types.NamedTuple([TABLE, TABLE, IN_I32, IN_I32, IN_BOOL, *[types.int64] * 4], Layer)
 NODES = types.NamedTuple([OUT_U8, OUT_I32, OUT_I32], Nodes)
-SEARCH = types.NamedTuple([types.Array(types.int64, 2, "C"), OUT_I64], Search)
+SEARCH = types.NamedTuple([types.Array(types.int64, 2, "C"), OUT_I64, OUT_I64], Search)
 ENDS = types.NamedTuple([IN_I64, IN_I64, OUT_U8, OUT_I64, OUT_I32, OUT_I32], Ends)
 
 
@@ -154,58 +167,6 @@ def forget(bound, search, more):
 
 
 @njit(nogil=True)
-def step_back(entry, out, into, hops, first_goal, all_flow, since, away, log, own):
-    """Visit that node before the one under way which is nearest to a robot without path; False if none is left."""
-    at, node, row, slack = log[entry, AT], log[entry, NODE], log[entry, ROW], log[entry, SLACK]
-    flow, tried = all_flow[at], log[entry, TRIED]
-    is_goal = node >= first_goal
-    best = FAR_AWAY * 4
-    best_at = best_node = best_row = best_slack = best_place = 0
-    last = into.shape[1]
-    for j in range(last):
-        offset = into[node, j, OFFSET]
-        place = j
-        if offset == 0:  # after the last arc: back along the flow that leaves
-            if is_goal or flow == 0:
-                break
-            place = OWN
-        if tried >> place & 1:
-            if place == OWN:
-                break
-            continue
-        if place == OWN:
-            other, tail, other_row, left = at, node, row, slack
-        else:
-            other, tail = at + offset, into[node, j, OTHER]
-            other_row, left = row + into[node, j, ROWS], slack - into[node, j, EXTRA]
-            i = (all_flow[other] & 15) - 1
-            if (i == into[node, j, PLACE]) if is_goal else (j == (flow >> 4) - 1):
-                continue
-        if all_flow[other] != 0:
-            i = (all_flow[other] & 15) - 1
-            other += out[tail, i, OFFSET]
-            other_row += out[tail, i, ROWS]
-            left += out[tail, i, EXTRA]
-            tail = out[tail, i, OTHER]
-        if _may_visit(other, left, entry, since, log, own):
-            far = away[tail]
-            if far > other_row - hops[tail]:  # too far for the steps that are left
-                far += FAR_AWAY
-            if far <= best:
-                best, best_place = far, place
-                best_at, best_node, best_row, best_slack = other, tail, other_row, left
-        else:
-            tried |= 1 << place
-        if place == OWN:
-            break
-    log[entry, TRIED] = tried | 1 << best_place
-    if best == FAR_AWAY * 4:
-        return False
-    visit(best_at, best_node, best_row, best_slack, entry, best_place, since, log, own)
-    return True
-
-
-@njit(nogil=True)
 def _step_against(at, node, j, entry, via, out, into, first_goal, all_flow, ahead, log, own):
     """Visit the node from which flow comes along arc j into a node, if that is worth it."""
     slack = log[entry, SLACK] + into[node, j, REDUCED]
@@ -257,3 +218,25 @@ def step_ahead(entry, out, into, first_goal, all_flow, ahead, log, own):
         return False
     log[entry, TRIED] |= 1 << OWN
     return _step_against(at, node, j, entry, OWN, out, into, first_goal, all_flow, ahead, log, own)
+
+
+@njit(nogil=True)
+def turn_ahead(out, into, first_goal, flow, log, entry):
+    """Let a robot go from the root to an entry; return the node where it starts."""
+    flow[log[entry, AT]] += 1
+    while log[entry, FROM] >= 0:
+        via = log[entry, VIA]
+        entry = log[entry, FROM]
+        at, node = log[entry, AT], log[entry, NODE]
+        if node >= first_goal:
+            continue
+        if via == OWN:
+            flow[at] = 0
+            continue
+        head = at + out[node, via, OFFSET]
+        flow[at] = (flow[at] & 0xF0) | (via + 1)
+        if out[node, via, OTHER] < first_goal:
+            flow[head] = (flow[head] & 15) | ((out[node, via, PLACE] + 1) << 4)
+    at = log[entry, AT]
+    flow[at] = (flow[at] & 15) | (START << 4)
+    return log[entry, NODE]

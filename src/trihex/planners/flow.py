@@ -21,6 +21,8 @@ _BUDGET = 500_000
 # Length of the lists of the search at first.
 _LIST = 1 << 12
 _GIB = 1 << 30
+# Robots get their paths singly if the destinations hold them up by less than this share of their distances.
+_SELDOM = 0.03
 
 
 @dataclass(eq=False)
@@ -67,36 +69,34 @@ def make_flow(
     TooLargeError
         If the layers would take more than `memory_limit`.
     """
-    from trihex.kernels import flow as kernels
-    from trihex.kernels import flow_search as searches
+    limit = _available_memory() * 4 // 5 if memory_limit is None else memory_limit
+    flow = None
+    if _meet_seldom(network, cells):
+        flow = _serve(network, cells, True, progress, limit)
+    return flow or _serve(network, cells, False, progress, limit)
+
+
+def _serve(
+    network: Network,
+    cells: NDArray[np.int64],
+    singly: bool,
+    progress: Callable[[int, int], None] | None,
+    limit: int,
+) -> Flow | None:
+    """Find the paths one robot after another, or None if they meet too often for that; else in order of cost."""
+    from trihex.kernels import flow as crowd
+    from trihex.kernels import flow_search as kernels
+    from trihex.kernels import flow_single as single
 
     size = network.node_count
-    limit = _available_memory() * 4 // 5 if memory_limit is None else memory_limit
-    capacity = network.scenario.destination_capacity
     layers = _least_layers(network, cells) + 8
     _check_memory(size, layers, cells.size, limit)
-    is_vertex = (np.arange(size) >= network.cell_count) & (np.arange(size) < network.first_destination)
-    layer = searches.Layer(
-        network.out_arcs,
-        network.in_arcs,
-        network.hops,
-        read_only(np.lexsort((is_vertex, -network.hops)).astype(np.int32)),
-        read_only(is_vertex),
-        network.first_destination,
-        255 if capacity is None else min(capacity, 255),
-        network.base,
-        int(np.gcd.reduce(network.out_arcs[:, :, 3], axis=None)) or searches.MARK,
-    )
-    nodes = searches.Nodes(*(np.zeros(layers * size, dtype) for dtype in (np.uint8, np.int32, np.int32)))
-    back, ahead = (
-        searches.Search(
-            np.empty((_LIST, 8), dtype=np.int64), np.array([0, searches.NONE, 0, searches.MARK], dtype=np.int64)
-        )
-        for _ in range(2)
-    )
+    layer = _make_layer(network)
+    nodes = kernels.Nodes(*(np.zeros(layers * size, dtype) for dtype in (np.uint8, np.int32, np.int32)))
+    back, ahead = (_make_search(_LIST) for _ in range(2))
     lacks = np.zeros(size, dtype=np.uint8)
     lacks[cells] = 1
-    ends = searches.Ends(
+    ends = kernels.Ends(
         read_only(network.hops[cells].astype(np.int64) * size + cells),
         read_only(network.value[cells].astype(np.int64)),
         lacks,
@@ -106,36 +106,84 @@ def make_flow(
     )
     state = np.zeros(kernels.STATE_SIZE, dtype=np.int64)
     state[kernels.LEVEL] = -1
-    state[kernels.SIDE] = kernels.AHEAD
+    state[kernels.SIDE] = crowd.AHEAD
     while True:
-        status = kernels.search(layer, nodes, back, ahead, ends, state, _BUDGET)
+        if singly:
+            status = single.serve_singly(layer, nodes, ahead, ends, state, _BUDGET)
+        else:
+            status = crowd.search(layer, nodes, back, ahead, ends, state, _BUDGET)
         if progress:
             progress(int(state[kernels.SERVED]), cells.size)
         if status == kernels.DONE:
             return Flow(network, ends.start, nodes.flow, int(state[kernels.TOTAL]) * network.unit)
-        if status == searches.LIST_FULL:
-            back, ahead = _with_room(back), _with_room(ahead)
+        if status == kernels.GIVEN_UP:
+            return None
+        if status == kernels.LIST_FULL:
+            needed = int(state[kernels.OPEN_GOALS])
+            back, ahead = _with_room(back, needed), _with_room(ahead, 0)
         elif status == kernels.LAYERS_FULL:
             more = max(8, layers // 2)
             _check_memory(size, layers + more, cells.size, limit)
-            nodes = searches.Nodes(*(_grown(array, array.size // layers * more) for array in nodes))
+            nodes = kernels.Nodes(*(_grown(array, array.size // layers * more) for array in nodes))
             ends = ends._replace(goals=_grown(ends.goals, ends.goals.size // layers * more))
             layers += more
         elif status == kernels.LEVELS_FULL:
             raise TooLargeError(
-                "costs above 2^29 units for one robot cannot be searched; choose a smaller waiting_cost"
+                f"costs above {kernels.MOST_LEVEL} units for a robot cannot be searched; choose a smaller waiting_cost"
             )
 
 
-def _with_room(search: Any) -> Any:
-    """Return a search with a longer log if that is full."""
-    from trihex.kernels import flow_search as searches
+def _make_layer(network: Network) -> Any:
+    from trihex.kernels import flow_search as kernels
 
-    if search.state[searches.LOGGED] < len(search.log):
+    capacity = network.scenario.destination_capacity
+    nodes = np.arange(network.node_count)
+    is_vertex = (nodes >= network.cell_count) & (nodes < network.first_destination)
+    return kernels.Layer(
+        network.out_arcs,
+        network.in_arcs,
+        network.hops,
+        read_only(np.lexsort((is_vertex, -network.hops)).astype(np.int32)),
+        read_only(is_vertex),
+        network.first_destination,
+        255 if capacity is None else min(capacity, 255),
+        network.base,
+        int(np.gcd.reduce(network.out_arcs[:, :, 3], axis=None)) or kernels.MARK,
+    )
+
+
+def _make_search(length: int) -> Any:
+    from trihex.kernels import flow_search as kernels
+
+    state = np.zeros(kernels.SEARCH_STATE_SIZE, dtype=np.int64)
+    state[kernels.CURRENT], state[kernels.SHORT] = kernels.NONE, kernels.MARK
+    return kernels.Search(np.empty((length, 8), dtype=np.int64), state, np.empty(kernels.LISTS, dtype=np.int64))
+
+
+def _with_room(search: Any, needed: int) -> Any:
+    """Return a search with a longer log if that is nearly full, or shorter than is `needed`."""
+    from trihex.kernels import flow_search as kernels
+
+    if 2 * max(search.state[kernels.LOGGED], needed) < len(search.log):
         return search
-    log = np.empty((2 * len(search.log), search.log.shape[1]), dtype=np.int64)
-    log[: len(search.log)] = search.log
-    return search._replace(log=log)
+    return search._replace(log=np.concatenate([search.log, np.empty_like(search.log)]))
+
+
+def _meet_seldom(network: Network, cells: NDArray[np.int64]) -> bool:
+    """Tell whether robots are hardly held up at the destinations, in each step of which so many arrive and no more."""
+    distance = network.value[cells].astype(np.int64)
+    index = np.arange(cells.size)
+    doors = _doors(network)
+    # The latest of the slots that robots before may have taken; robots are in ascending order of value.
+    arrival = np.maximum.accumulate(distance // network.base - index // doors) + index // doors
+    held_up = int(np.maximum(arrival * network.base - distance, 0).sum())
+    return held_up < _SELDOM * int(distance.sum())
+
+
+def _doors(network: Network) -> int:
+    """Return how many robots can arrive in a step, at most."""
+    arcs = np.count_nonzero(network.in_arcs[network.first_destination :, :, 0], axis=1)
+    return max(1, int(np.minimum(arcs, network.scenario.destination_capacity or arcs).sum()))
 
 
 def _grown(array: NDArray[Any], more: int) -> NDArray[Any]:
@@ -147,11 +195,9 @@ def _grown(array: NDArray[Any], more: int) -> NDArray[Any]:
 
 def _least_layers(network: Network, cells: NDArray[np.int64]) -> int:
     """Return a lower bound on the last arrival: so many robots enter the destinations in a step and no more."""
-    arcs = np.count_nonzero(network.in_arcs[network.first_destination :, :, 0], axis=1)
-    doors = int(np.minimum(arcs, network.scenario.destination_capacity or arcs).sum())
     hops = np.sort(network.hops[cells])
     behind = np.arange(cells.size)[::-1]
-    return int((hops + behind // max(doors, 1)).max(initial=0)) + 1
+    return int((hops + behind // _doors(network)).max(initial=0)) + 1
 
 
 def _check_memory(nodes: int, layers: int, robots: int, limit: int) -> None:
