@@ -64,12 +64,9 @@ OF_ALL = 2
 
 
 @njit(nogil=True)
-def _stands_back(entry, ahead, log):
-    """Tell whether the node has been visited no later at the same cost."""
-    seen = ahead[log[entry, AT]] - MARK
-    if seen < 0 or log[seen, COST] > log[entry, COST]:
-        return False
-    return log[seen, COST] < log[entry, COST] or log[seen, TURNS] <= log[entry, TURNS]
+def _stands_back(seen, cost, turns, log):
+    """Tell whether a visit at such a cost and with so many turns is no better than one that has been."""
+    return cost > log[seen, COST] or (cost == log[seen, COST] and turns >= log[seen, TURNS])
 
 
 @njit(nogil=True)
@@ -91,12 +88,13 @@ def _put(entry, ahead, log, own, heads, cost_now):
 @njit(nogil=True)
 def _offer(at, node, cost, turns, seen_from, via, ahead, log, own, heads, cost_now):
     """Log a node that is worth a visit."""
+    if ahead[at] >= MARK and _stands_back(ahead[at] - MARK, cost, turns, log):
+        return
     entry = own[LOGGED]
     log[entry, AT], log[entry, NODE], log[entry, COST], log[entry, TURNS] = at, node, cost, turns
     log[entry, FROM], log[entry, VIA] = seen_from, via
-    if not _stands_back(entry, ahead, log):
-        own[LOGGED] += 1
-        _put(entry, ahead, log, own, heads, cost_now)
+    own[LOGGED] += 1
+    _put(entry, ahead, log, own, heads, cost_now)
 
 
 @njit(nogil=True)
@@ -169,7 +167,8 @@ def _raise_cost(ahead, log, own, heads, cost_now):
         own[BASE] = cost_now
     while entry != NONE:
         following = log[entry, NEXT]
-        if not _stands_back(entry, ahead, log):
+        seen = ahead[log[entry, AT]] - MARK
+        if seen < 0 or not _stands_back(seen, log[entry, COST], log[entry, TURNS], log):
             _put(entry, ahead, log, own, heads, cost_now)
         entry = following
     return cost_now
@@ -203,7 +202,8 @@ def _serve(start, value, out, into, first_goal, capacity, flow, ahead, log, own,
         if log[entry, AT] + SPARE_ROWS * size > len(flow):
             return LAYERS_FULL
         heads[own[CURRENT]] = log[entry, NEXT]
-        if _stands_back(entry, ahead, log):
+        seen = ahead[log[entry, AT]] - MARK
+        if seen >= 0 and _stands_back(seen, log[entry, COST], log[entry, TURNS], log):
             continue
         if log[entry, NODE] >= first_goal and flow[log[entry, AT]] < capacity:
             turn_ahead(out, into, first_goal, flow, log, entry)

@@ -73,7 +73,10 @@ def make_flow(
     flow = None
     if _meet_seldom(network, cells):
         flow = _serve(network, cells, True, progress, limit)
-    return flow or _serve(network, cells, False, progress, limit)
+    if flow is None:
+        flow = _serve(network, cells, False, progress, limit)
+    assert flow is not None, "only those who are served singly are given up"
+    return flow
 
 
 def _serve(
