@@ -118,7 +118,7 @@ areas = ["bad.map", "none.map", {path = "bad.map", room = 3}, {generator = "maze
     ]  # fmt: skip
     assert told[1] == "study.toml: areas.1.path: No such file or directory: none.map"
     assert told[3] == "study.toml: areas.3: room: belongs to rooms, not to maze"
-    assert told[-1].endswith("rule must be one of best, paper, queue, aside, not 'bset'; did you mean 'best'?")
+    assert told[-1].endswith("rule must be one of best, paper, queue, aside, lanes, not 'bset'; did you mean 'best'?")
 
 
 def test_runs_given_one_by_one_are_checked_alike():
