@@ -6,6 +6,7 @@ plot, and the table in docs/studies/complexity.md. ``--table`` writes the table 
 
 import argparse
 import csv
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -14,12 +15,14 @@ import numpy as np
 import trihex as th
 from benchmarks.literal import run_literally
 from benchmarks.measure import cpu_seconds, exponent, machine
+from benchmarks.planning import make_scenario
 
 DOCS = Path(__file__).parent.parent / "docs"
 RESULTS, PAGE = DOCS / "studies" / "complexity.csv", DOCS / "studies" / "complexity.md"
 FIGURE = DOCS / "figures" / "growth.png"
 COLUMNS = ("what", "in", "paper", "who", "unit", "size", "result")
 ANSWER = "<!-- answer, by python -m benchmarks growth -->", "<!-- end of answer -->"
+CROWDS = (12_500, 25_000, 50_000, 100_000, 200_000, 400_000, 800_000)
 TABLE = "<!-- table, by python -m benchmarks growth -->", "<!-- end of table -->"
 Row = dict[str, str]
 
@@ -115,6 +118,29 @@ def ours() -> Iterator[Row]:
         yield planned("fcost, a plan, one robot enters a step", "n", "O(K n^2)", robots, scenario, False)
 
 
+def crowds(most: dict[str, int]) -> Iterator[Row]:
+    """Yield how long plans of ever more robots on the same ground take: a robot's step, a step of all, the plan.
+
+    Robots up to `most` of each planner. Least of two times for each.
+    """
+    for planner, limit in most.items():
+        found = []
+        for robots in (n for n in CROWDS if n <= limit):
+            scenario = make_scenario("hexagonal", 2048, robots, 200)
+            n_scheme = th.make_n_scheme(scenario)
+            took, plan = [], th.make_plan(scenario.with_robots(scenario.robots[:100]), planner)
+            for _ in range(2):
+                begin = time.process_time()
+                plan = th.make_plan(scenario, planner, n_scheme=n_scheme)
+                took.append(time.process_time() - begin)
+            found.append((robots, min(took), plan.steps, plan.actions.size))
+            print(f"{planner}: {robots} robots, {plan.steps} steps, {plan.actions.size} robot-steps, {min(took):.3g} s")
+        for what, number in (("a robot and step", 3), ("one step of all robots", 2), ("a plan", None)):
+            for one in found:
+                took = one[1] / one[number] if number else one[1]
+                yield row(f"{planner}, crowds: {what}", "n", "-", "trihex", "s", one[0], took)
+
+
 def planned(what: str, variable: str, paper: str, size: int, scenario: th.Scenario, for_each: bool) -> Row:
     """Return how long a plan takes, for each robot and step or in all; the fields are there already."""
     n_scheme = th.make_n_scheme(scenario)
@@ -128,6 +154,16 @@ def row(what: str, variable: str, paper: str, who: str, unit: str, size: float, 
     values = (what, variable, paper, who, unit, str(size), f"{result:.4g}" if unit == "s" else str(result))
     print(f"{what:40}{variable:3}{who:10}{size:10}  {values[-1]} {unit}", flush=True)
     return dict(zip(COLUMNS, values, strict=True))
+
+
+PARTS: dict[str, Callable[[], Iterator[Row]]] = {
+    "fields": fields,
+    "step": one_step,
+    "steps": many_steps,
+    "ours": ours,
+    "greedy": lambda: crowds({"greedy": 800_000}),
+    "fcost": lambda: crowds({"fcost": 400_000}),
+}
 
 
 def read_results() -> list[Row]:
@@ -165,11 +201,13 @@ def answer_lines(rows: list[Row]) -> list[str]:
         grown["K steps of all robots", "K", "literal"],
     ]
     ours = [grown["fcost, a robot and step", variable, "trihex"] for variable in ("n", "b")]
+    crowd = [grown[f"{name}, crowds: one step of all robots", "n", "trihex"] for name in ("greedy", "fcost")]
     fields = [grown[f"{field}-scheme, random area", "b", "trihex"] for field in ("N", "D")]
     return [
         "Taken literally, the paper's planner grows as its section V states: the comparisons of one step as",
         f"n^{literal[0]:.2f} and b^{literal[1]:.2f}, those of K steps as K^{literal[2]:.2f}. With c looked up,",
         f"the time of a robot's step grows as n^{ours[0]:.2f} and b^{ours[1]:.2f}, so not at all,",
+        f"that of one step of all robots as n^{crowd[0]:.2f} by greedy and n^{crowd[1]:.2f} by fcost,",
         f"that of the N-scheme as b^{fields[0]:.2f}, that of the D-scheme as b^{fields[1]:.2f}.",
     ]
 
@@ -196,9 +234,10 @@ def draw(rows: list[Row]) -> None:
         "a robot's step: robots n, cells b": ("fcost, a robot",),
         "whole plans: steps K": ("fcost, a plan in K",),
         "whole plans: robots n": ("a plan, one", "fcost, a plan, one"),
+        "crowds on 2048 x 2048 cells, 200 destinations: robots n": ("greedy, crowds", "fcost, crowds"),
     }
-    figure, axes = pyplot.subplots(2, 3, figsize=(11, 7.2), layout="constrained")
-    for ax, (title, starts) in zip(axes.flat, panels.items(), strict=True):
+    figure, axes = pyplot.subplots(2, 4, figsize=(14.5, 7.2), layout="constrained")
+    for ax, (title, starts) in zip(axes.flat, panels.items(), strict=False):
         units = set()
         for (what, variable, _, who, unit), (sizes, results) in curves(rows).items():
             if f"{what} in {variable}".startswith(starts):
@@ -214,6 +253,7 @@ def draw(rows: list[Row]) -> None:
             axis.set_minor_formatter(ticker.NullFormatter())
         ax.grid(alpha=0.3)
         ax.legend(fontsize=6, loc="upper center", bbox_to_anchor=(0.5, -0.12), frameon=False)
+    axes.flat[-1].set_axis_off()
     figure.savefig(FIGURE, dpi=110, metadata={"Software": None})
 
 
@@ -221,12 +261,16 @@ def main(options: list[str]) -> None:
     parser = argparse.ArgumentParser(prog="python -m benchmarks growth", description=__doc__)
     parser.add_argument("--write", action="store_true", help="write results, plot and page")
     parser.add_argument("--table", action="store_true", help="write plot and page from the results file")
+    parser.add_argument("--only", nargs="+", choices=PARTS, help="measure these, take the rest from the results file")
     chosen = parser.parse_args(options)
-    if chosen.table:
-        rows = read_results()
-    else:
+    rows = read_results() if chosen.table or chosen.only else []
+    if not chosen.table:
         print(machine())
-        rows = [*fields(), *one_step(), *many_steps(), *ours()]
+        for part in chosen.only or PARTS:
+            found = list(PARTS[part]())
+            names = {one["what"] for one in found}
+            rows = [one for one in rows if one["what"] not in names or one["who"] not in {new["who"] for new in found}]
+            rows += found
     print("\n".join(table_lines(rows)))
     if chosen.write:
         with open(RESULTS, "w", newline="", encoding="utf-8") as file:
