@@ -7,7 +7,7 @@ import trihex as th
 from tests import oracle_flow
 from tests.oracle_optimum import least_total_time
 from tests.strategies import random_scenario
-from trihex.planners import make_plan
+from trihex.planners import flow, make_plan
 
 
 def cannot_always_be_proven(scenario):
@@ -34,6 +34,27 @@ def test_the_least_total_time_is_that_of_or_tools(share):
         assert th.audit_plan(plan).is_clean
         assert plan.optimal, seed
         assert plan.total_time == oracle_flow.least_total_time(scenario, plan.steps + 5), seed
+
+
+@pytest.mark.parametrize("budget", [500_000, 20])
+def test_robots_served_one_after_another_cost_as_little(monkeypatch, budget):
+    served = []
+
+    def serve(network, cells, singly, *arguments):
+        served.append((singly, found := serve_as_ever(network, cells, singly, *arguments)))
+        return found
+
+    serve_as_ever = flow._serve
+    monkeypatch.setattr(flow, "_meet_seldom", lambda network, cells: True)
+    monkeypatch.setattr(flow, "_serve", serve)
+    monkeypatch.setattr(flow, "_BUDGET", budget)
+    for seed in range(1_000, 1_020):
+        scenario = crowded_scenario(seed)
+        plan = make_plan(scenario, "optimal")
+        assert th.audit_plan(plan).is_clean
+        assert plan.total_time == oracle_flow.least_total_time(scenario, plan.steps + 5), seed
+    given_up = sum(found is None for _, found in served)
+    assert given_up == 0 if budget > 20 else given_up > 0
 
 
 @pytest.mark.parametrize("share", range(5))

@@ -19,7 +19,7 @@ from numba import njit, types
 from trihex.kernels.signatures import IN_BOOL, IN_I32, IN_I64, OUT_I32, OUT_I64, OUT_U8
 
 # What a search ends with.
-BUDGET_SPENT, LIST_FULL, FOUND, EXHAUSTED, DONE, LAYERS_FULL, LEVELS_FULL, GIVEN_UP = range(8)
+BUDGET_SPENT, LIST_FULL, FOUND, EXHAUSTED, DONE, LAYERS_FULL, LEVELS_FULL = range(7)
 # Places in the state of a search: length of its log, entry under way, next root, least shortfall, entry found.
 LOGGED, CURRENT, ROOT, SHORT, LAST = range(5)
 SEARCH_STATE_SIZE = 5

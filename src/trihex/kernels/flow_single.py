@@ -16,7 +16,6 @@ from trihex.kernels.flow_search import (
     DONE,
     ENDS,
     FROM,
-    GIVEN_UP,
     LAYER,
     LAYERS_FULL,
     LEVEL,
@@ -57,10 +56,6 @@ COST = SLACK
 FURTHER = LISTS - 1
 # Of a search: cost that the first list of those stands for.
 BASE = ROOT
-# A robot that takes as many visits as this share of all nodes, or all robots that take twice as many as there are
-# nodes, meet others too often.
-SHARE_OF_ONE = 16
-OF_ALL = 2
 
 
 @njit(nogil=True)
@@ -214,8 +209,6 @@ def _serve(start, value, out, into, first_goal, capacity, flow, ahead, log, own,
             continue
         state[SPENT] += 1
         state[VISITS] += 1
-        if state[SPENT] > len(flow) // SHARE_OF_ONE or state[VISITS] > OF_ALL * len(flow):
-            return GIVEN_UP
         ahead[log[entry, AT]] = MARK + entry
         _visit(entry, out, into, first_goal, flow, ahead, log, own, heads, state[LEVEL])
     return BUDGET_SPENT
@@ -225,7 +218,8 @@ def _serve(start, value, out, into, first_goal, capacity, flow, ahead, log, own,
 def serve_singly(layer, nodes, search, ends, state, budget):
     """Serve robots, the farthest first, until all have a path, room is needed or some `budget` nodes were visited.
 
-    The cost beyond its value of the robot under way is ``state[LEVEL]``, or NONE between two robots.
+    The cost beyond its value of the robot under way is ``state[LEVEL]``, or NONE between two robots; nodes visited for
+    it and for all so far are ``state[SPENT]`` and ``state[VISITS]``.
     """
     # Arrays in place of tuples of them: each access to a tuple counts references, which takes half of the time.
     return _serve(

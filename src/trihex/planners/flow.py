@@ -119,7 +119,9 @@ def _serve(
             progress(int(state[kernels.SERVED]), cells.size)
         if status == kernels.DONE:
             return Flow(network, ends.start, nodes.flow, int(state[kernels.TOTAL]) * network.unit)
-        if status == kernels.GIVEN_UP:
+        # Nodes visited for one robot, and for all.
+        one, every = int(state[kernels.SPENT]), int(state[kernels.VISITS])
+        if singly and (one > nodes.flow.size // 16 or every > 2 * nodes.flow.size):
             return None
         if status == kernels.LIST_FULL:
             needed = int(state[kernels.OPEN_GOALS])
