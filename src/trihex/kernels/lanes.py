@@ -5,6 +5,7 @@ against a lane, which then goes elsewhere from there (Busacker and Gowen 1961). 
 against it only. Nodes are sites, and size + number of a lattice vertex where nobody may cross. Each has a *value*: what
 a way from it costs at least, at first the distance, of a vertex the least of those around it. Values rise as lanes are
 found, so that no residual arc costs less than what it comes nearer (Edmonds and Karp 1972): its *reduced* cost is >= 0.
+For that a vertex is entered at the cost of the dearest move through it (which matters for euclidean triangles only).
 What is not touched stays 0, in arrays as in memory: nodes in arrays are given + 1.
 """
 
@@ -12,7 +13,6 @@ import numpy as np
 from numba import njit, types
 from numba.cpython.unsafe.numbers import trailing_zeros
 
-from trihex.kernels import NOT_REACHED
 from trihex.kernels.signatures import IN_I32, IN_I64, IN_U16, OUT_I32, OUT_I64, OUT_U16, TABLE_I32
 
 # Entries of the state: robots tried, lanes found, nodes visited.
@@ -41,18 +41,16 @@ def _first_value(node, moves, distance, ring, via):
 
 
 @njit(nogil=True)
-def _cost(node, target, first_vertex_move, moves, offset, vertex, cost):
+def _cost(node, target, moves, offset, cost):
     """Return what it costs to get from a node to the next one."""
     if node >= len(moves):
         return np.int64(0)
-    least = np.int64(NOT_REACHED)
+    if target >= len(moves):
+        return np.int64(cost.max())
+    least = np.int64(NOBODY)
     for k in range(len(cost)):
-        if moves[node] >> k & 1:
-            there = node + offset[node & 1, k]
-            if k >= first_vertex_move:
-                there = len(moves) + node + vertex[node & 1, k]
-            if there == target:
-                least = min(least, np.int64(cost[k]))
+        if moves[node] >> k & 1 and node + offset[node & 1, k] == target:
+            least = min(least, np.int64(cost[k]))
     return least
 
 
@@ -97,6 +95,7 @@ def _search(
     in a stack, so that of many equally good ways one is followed to its end.
     """
     size = len(moves)
+    toll = np.int64(cost.max())
     heap = np.empty(1024, np.int64)
     keys = 0
     at = np.int64(0)
@@ -137,6 +136,7 @@ def _search(
                 paid = np.int64(cost[i])
                 target = node + offset[node & 1, i]
                 if i >= first_vertex_move:
+                    paid = toll
                     target = size + node + vertex[node & 1, i]
             if target == after:
                 continue
@@ -188,7 +188,7 @@ def _expect(starts, distance, lanes, price, due):
 
 
 @njit(nogil=True)
-def _change_lanes(last, goal, first_vertex_move, moves, offset, vertex, cost, nodes):
+def _change_lanes(last, goal, moves, offset, cost, nodes):
     """Lead lanes along the path that was found, from its last node back to the start, where the new lane begins."""
     node = last
     nodes[node, AFTER] = goal + 1
@@ -201,7 +201,7 @@ def _change_lanes(last, goal, first_vertex_move, moves, offset, vertex, cost, no
             nodes[parent, BEFORE] = nodes[parent, AFTER] = 0
         else:
             nodes[parent, AFTER], nodes[entered, BEFORE] = entered + 1, parent + 1
-            nodes[entered, PAID] = _cost(parent, entered, first_vertex_move, moves, offset, vertex, cost)
+            nodes[entered, PAID] = _cost(parent, entered, moves, offset, cost)
         node = parent
 
 
@@ -254,7 +254,7 @@ def link(
             elif nodes[node, REDUCED] < best:
                 nodes[node, VALUE] = min(nodes[node, VALUE] + best - nodes[node, REDUCED], NOBODY + 1)
         if last >= 0:
-            _change_lanes(last, goal, first_vertex_move, moves, offset, vertex, cost, nodes)
+            _change_lanes(last, goal, moves, offset, cost, nodes)
             ends[goal] += 1
             state[FOUND] += 1
             _expect(starts, distance, state[FOUND], price, due)
