@@ -13,10 +13,10 @@ from functools import lru_cache
 import numpy as np
 from numba import njit, types
 
+from trihex.kernels import NOT_REACHED
 from trihex.kernels.prefetch import prefetch
 from trihex.kernels.signatures import IN_I32, IN_U16, MASK, OUT_I32, OUT_I64, _array
 
-NOT_REACHED = 2**31 - 1
 FARTHEST = 2_000_000_000  # distances of open cells stay below it, so that sums of a few moves never overflow
 IN_U64, OUT_U64 = _array(types.uint64, True), _array(types.uint64, False)
 # What `state` holds: which list is read, at which entry, the lengths of the three lists in the order of their turns,

@@ -10,9 +10,9 @@ what to begin with comes in a sorted list, because it may lie anywhere.
 
 from numba import njit, types
 
+from trihex.kernels import NOT_REACHED
 from trihex.kernels.signatures import IN_BOOL, IN_I32, IN_I64, IN_U16, OUT_I32, OUT_I64, OUT_U16, TABLE_I32
 
-NOT_REACHED = 2**31 - 1
 FARTHEST = 2_000_000_000
 ALLOW, NO_SQUEEZE, NO_CUT = 0, 1, 2
 RAISE, LOWER = 0, 1

@@ -9,7 +9,6 @@ from numba import njit, types
 
 from trihex.kernels.signatures import IN_I32, IN_I64, IN_U16, OUT_I32, OUT_I64, OUT_U8, TABLE_I32
 
-NOT_REACHED = 2**31 - 1
 WAIT = 255
 GREEDY, FCOST = 0, 1
 # When a robot that had better wait steps to a place no farther than its own: never, if that costs no more, or always
