@@ -3,10 +3,10 @@
 The graph is that of `trihex.planners.network` and is never built: a byte per node holds the flow, the arc it leaves by
 and the arc it comes in by.
 
-Robots get their paths in ascending order of cost, the *level* (successive shortest paths). At each level two searches
-(`trihex.kernels.flow_search`) take turns until one finds a robot without path and a destination joined by residual arcs
-of that cost, or has seen all there is, which proves that there is no such path and ends the level. Where destinations
-are crowded the search back is the quicker, where robots hardly meet the search ahead.
+Robots get their paths in ascending order of cost, the *level* (successive shortest paths). At each level two searches,
+`trihex.kernels.flow_back` and `flow_search`, take turns until one finds a robot without path and a destination joined
+by residual arcs of that cost, or has seen all there is, which proves that there is no such path and ends the level.
+Where destinations are crowded the search back is the quicker, where robots hardly meet the search ahead.
 """
 
 from numba import njit, types

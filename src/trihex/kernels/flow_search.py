@@ -1,15 +1,15 @@
-"""Depth-first searches for a path of one cost through the residual graph of a flow, from either end.
+"""Depth-first search ahead for a path of one cost through the residual graph, and what all searches share.
 
 Every node takes one unit of flow. A node that carries flow is entered against it and left against it: whoever enters
 goes back to where the flow came from. So the search ahead keeps only nodes that it leaves, and the search back only
 nodes that it enters.
 
-Both prune by a lower bound that each node keeps: ``since``, the cost from a robot without path to the node, less `base`
+All prune by a lower bound that each node keeps: ``since``, the cost from a robot without path to the node, less `base`
 a step; ``ahead``, the cost from the node to a destination, less its value in the network. A node is visited while its
 *slack*, what the path may still cost beyond that, is not below its bound. Neither cost ever falls as robots get their
-paths, so a bound may be raised as soon as a node is known to lead nowhere: as in the method of Tarjan (1972), when the
-search leaves the first visited node of a strongly connected component, all visited since then are done with. They are
-raised by the least slack that any visit was short of; with equal costs there is none, and they are dead for ever.
+paths, so a bound may be raised as soon as a node is known to lead nowhere. The search here is depth-first: as in the
+method of Tarjan (1972), when it leaves the first visited node of a strongly connected component, all visited since then
+are done with. They are raised by the least slack that any visit was short of.
 """
 
 from typing import Any, NamedTuple
