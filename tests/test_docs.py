@@ -156,7 +156,7 @@ def test_every_example_runs_and_leaves_its_picture(path, tmp_path, monkeypatch, 
     runpy.run_path(str(path), run_name="__main__")
     assert capsys.readouterr().out.strip()
     made = {file.name for file in tmp_path.iterdir()}
-    assert f"{path.stem}.png" in made or f"{path.stem}.gif" in made
+    assert made & {f"{path.stem}{ending}" for ending in (".png", ".gif", ".svg")}
     assert made - {"waypoints.csv"} <= {file.name for file in (ROOT / "docs" / "figures").iterdir()}
 
 
