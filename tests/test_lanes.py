@@ -161,6 +161,17 @@ def test_lanes_share_nothing_and_all_cells_join_them(seed):
     assert np.array_equal(distance < 2**31 - 1, n_scheme.distance < 2**31 - 1)
 
 
+@pytest.mark.parametrize("seed", range(6))
+def test_vertices_passed_at_two_costs_lead_nobody_in_circles(seed):
+    """Euclidean moves through one vertex cost 1732 or 2000; entered at the least, no search came to an end."""
+    area = th.make_random_area(th.Tessellation("triangular", costs="euclidean"), 24, 36, density=0.3, seed=seed)
+    goal = int(np.flatnonzero(~area.barriers)[300])
+    scenario = th.Scenario(area, [goal], th.random_robots(area, 100, seed=seed, avoid=[goal]))
+    lanes = ways(make_lanes(th.make_n_scheme(scenario), all_there_are=True))
+    graph = Graph(scenario)
+    assert len(lanes) == graph.most(graph.robots)
+
+
 def test_two_robots_pass_a_bend_of_a_corridor_of_two_cells_in_one_step():
     """All shortest ways go round the inner corner; lanes do not, and the crowd arrives sooner."""
     barriers = np.ones((24, 24), dtype=bool)
