@@ -17,8 +17,9 @@ from trihex.planners.recording import Progress, Recording
 from trihex.schemes import DScheme, NScheme, make_d_scheme
 
 RULES = ("best", "paper", "queue", "aside", "lanes")
-# Robot-steps up to which "best" tries "lanes" as well.
-_FEW = 2_000_000
+# Robot-steps up to which "best" tries "lanes" as well, and how many cells times destinations there may be for each of
+# them: a search for a lane may visit all cells, once for each way into a destination.
+_FEW, _SPARSE = 2_000_000, 32
 # Looking for lanes may take as long as planning does: so many nodes, and two for each robot-step.
 _VISITS = 20_000
 # Of so many robots and more each looks for a way better than a free one in every fourth step only: half the time, and
@@ -32,7 +33,8 @@ def plan_fcost(n_scheme: NScheme, *, rule: str = "best", progress: Progress | No
     """Plan by the least Fcost = v + V + w_t * c (section IV of the paper), step by step.
 
     In each step each robot takes the free direction of least Fcost, and waits where the best direction, though taken,
-    promises less. Who is asked first, and regions, are as in `plan_greedy`; under "paper" there are no regions.
+    promises less. Who stands in the way of another is asked before it. Regions are as in `plan_greedy`; under "paper"
+    there are none.
 
     Parameters
     ----------
@@ -44,7 +46,7 @@ def plan_fcost(n_scheme: NScheme, *, rule: str = "best", progress: Progress | No
         robot that would wait may step to a cell no farther away if that costs no more. "aside": the same, and a blocked
         robot always steps to such a cell unless it has just left it. "lanes": the same, and V is not the least distance
         but that along lanes, as many as there is room for, see `trihex.planners.lanes`. "best": "aside" or greedy
-        descent, whichever takes less total time, and up to two million robot-steps "lanes", too.
+        descent, whichever takes less total time, and "lanes", too, where looking for lanes takes no longer than planning.
     progress : callable, optional
         Called with (robots arrived, robots that can arrive), of one rule after the other.
     """
@@ -136,7 +138,8 @@ def _run(n_scheme: NScheme, rule: str, keeps_actions: bool, progress: Progress |
     steps = best.crowd.arrival.sum()
     other = run_greedy(n_scheme, keeps_actions, progress, best.total_time)
     best = min(best, other, key=lambda one: (not one.is_over, one.total_time))
-    if steps <= _FEW:
+    scenario = n_scheme.scenario
+    if steps <= _FEW and scenario.area.free_count * scenario.destinations.size <= _SPARSE * steps:
         lanes = make_lanes(n_scheme, most_visits=_VISITS + 2 * int(steps))
         other = _simulated(lanes.d_scheme, "aside", keeps_actions, progress, best.total_time)
         best = min(best, other, key=lambda one: (not one.is_over, one.total_time))
