@@ -20,8 +20,8 @@ RULES = ("best", "paper", "queue", "aside", "lanes")
 # Robot-steps up to which "best" tries "lanes" as well, and how many cells times destinations there may be for each of
 # them: a search for a lane may visit all cells, once for each way into a destination.
 _FEW, _SPARSE = 2_000_000, 32
-# Looking for lanes may take as long as planning does: so many nodes, and two for each robot-step.
-_VISITS = 20_000
+# Looking for lanes may take about as long as planning does: so many nodes, and one for every fourth robot-step.
+_VISITS = 50_000
 # Of so many robots and more each looks for a way better than a free one in every fourth step only: half the time, and
 # totals 0.2 % larger; in small crowds it would be 1 to 2 %.
 _MANY, _PERIOD = 10_000, 4
@@ -140,7 +140,7 @@ def _run(n_scheme: NScheme, rule: str, keeps_actions: bool, progress: Progress |
     best = min(best, other, key=lambda one: (not one.is_over, one.total_time))
     scenario = n_scheme.scenario
     if steps <= _FEW and scenario.area.free_count * scenario.destinations.size <= _SPARSE * steps:
-        lanes = make_lanes(n_scheme, most_visits=_VISITS + 2 * int(steps))
+        lanes = make_lanes(n_scheme, most_visits=_VISITS + int(steps) // 4)
         other = _simulated(lanes.d_scheme, "aside", keeps_actions, progress, best.total_time)
         best = min(best, other, key=lambda one: (not one.is_over, one.total_time))
     return best
