@@ -199,7 +199,10 @@ def search(layer, nodes, back, ahead, ends, state, budget):
             if status != BUDGET_SPENT:
                 return status
             continue
-        quota = state[QUOTA] if state[TURN] == BACK else max(FIRST_QUOTA, state[QUOTA] // 4)
+        quota = state[QUOTA]
+        if state[TURN] == AHEAD:
+            # Where all steps cost the same, what the search ahead leaves in vain is dead for ever.
+            quota = 2 * quota if layer.base == 1 else max(FIRST_QUOTA, quota // 4)
         state[SPENT] += quota
         if state[TURN] == BACK:
             if state[AGE] > len(layer.hops) // 4 and state[SERVED] > state[SERVED_THEN]:
