@@ -159,6 +159,12 @@ def test_lanes_share_nothing_and_all_cells_join_them(seed):
     distance = made.n_scheme.distance
     assert {cell: int(distance[cell[1], cell[0]]) for cell in cost} == cost
     assert np.array_equal(distance < 2**31 - 1, n_scheme.distance < 2**31 - 1)
+    for here in others:
+        bits = int(made.d_scheme.directions[here[1], here[0]])
+        side = int(scenario.area.tessellation.orientation_of_cell(*here))
+        steps = scenario.area.tessellation.step_of_direction[side].tolist()
+        ends = {(here[0] + dx, here[1] + dy) for k, (dx, dy) in enumerate(steps) if bits >> k & 1}
+        assert ends == {other for other, paid in rules.neighbours(here) if cost[here] == cost[other] + paid}
 
 
 @pytest.mark.parametrize("seed", range(6))

@@ -10,7 +10,6 @@ from numpy.typing import ArrayLike, NDArray
 from trihex.area import cells_from
 from trihex.errors import ScenarioError
 from trihex.kernels import NOT_REACHED as NOT_REACHED
-from trihex.record import read_only
 from trihex.scenario import CORNERS, Scenario
 from trihex.wave import BUDGET, Wave
 
@@ -86,7 +85,7 @@ class LivingField:
         self.blocked = np.empty(self.layout.size, dtype=bool)
         fill_blocked(self.area.barriers, self.layout.origin, self.layout.pitch, self.blocked)
         self.destinations = set(scenario.destinations.tolist())
-        self._reverse = _reverse_directions(self.layout.offset_of_direction)
+        self._reverse = self.layout.back_of_direction
         self._wave = Wave(scenario, self.moves, self.distance_of_site)
 
     @property
@@ -184,14 +183,3 @@ class LivingField:
                     sites[part], self.moves, offset, self._reverse, cost, distance, self.directions_of_site
                 )
         return Repair(raised.size, lowered.size, sites)
-
-
-def _reverse_directions(offset: NDArray[np.int32]) -> NDArray[np.int32]:
-    """Return for each direction the one that leads back, shape (2, directions)."""
-    directions = offset.shape[1]
-    reverse = np.empty(offset.shape, dtype=np.int32)
-    for parity in range(2):
-        for k in range(directions):
-            there = (parity + int(offset[parity, k])) & 1
-            reverse[parity, k] = int(np.flatnonzero(offset[there] == -offset[parity, k])[0])
-    return read_only(reverse)

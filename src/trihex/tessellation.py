@@ -289,6 +289,13 @@ class Layout(Record):
         return self._offsets(self.tessellation.step_of_direction)
 
     @cached_property
+    def back_of_direction(self) -> NDArray[np.int32]:
+        """Which direction leads back from the neighbour, shape (2, directions)."""
+        offset = self.offset_of_direction
+        there = (np.arange(2)[:, None] + offset) & 1
+        return read_only(np.argmax(offset[there] == -offset[:, :, None], axis=2).astype(np.int32))
+
+    @cached_property
     def vertex_of_direction(self) -> NDArray[np.int32]:
         """What to add to a site to get the lattice vertex passed, shape (2, directions); 0 on edge moves."""
         rows = self.tessellation._rows

@@ -43,8 +43,6 @@ OFFSET, REDUCED, PLACE, EXTRA, OTHER, ROWS = range(6)
 START = 15
 # Place of the arc from the entered to the left side of the same node.
 OWN = 14
-# Added to the place of arcs that lead to a destination.
-TO_GOAL = 16
 # Bounds: MARK + entry while a node is visited and not done with.
 MARK = 1 << 30
 DEAD = MARK - 1

@@ -127,9 +127,6 @@ def tables_of(scenario: Scenario) -> list[NDArray[np.int32]]:
     Each flat, with a row of 16 directions for each parity of sites.
     """
     layout = scenario.area.layout
-    offset = layout.offset_of_direction
-    there = (np.arange(2)[:, None] + offset) & 1
-    back = np.argmax(offset[there] == -offset[:, :, None], axis=2)
-    many = 16 - offset.shape[1]
-    tables = (offset, layout.vertex_of_direction, back)
+    tables = (layout.offset_of_direction, layout.vertex_of_direction, layout.back_of_direction)
+    many = 16 - tables[0].shape[1]
     return [np.pad(table, ((0, 0), (0, many))).astype(np.int32).reshape(-1) for table in tables]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -11,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.errors import TooLargeError
+from trihex.planners.memory import GIB, available_memory
 from trihex.planners.network import Network
 from trihex.record import read_only
 
@@ -20,7 +20,6 @@ BYTES_PER_NODE = 9
 _BUDGET = 500_000
 # Length of the lists of the search at first.
 _LIST = 1 << 12
-_GIB = 1 << 30
 # Robots get their paths singly if the destinations hold them up by less than this share of their distances.
 _SELDOM = 0.03
 
@@ -69,7 +68,7 @@ def make_flow(
     TooLargeError
         If the layers would take more than `memory_limit`.
     """
-    limit = _available_memory() * 4 // 5 if memory_limit is None else memory_limit
+    limit = available_memory() * 4 // 5 if memory_limit is None else memory_limit
     flow = None
     if _meet_seldom(network, cells):
         flow = _serve(network, cells, True, progress, limit)
@@ -209,22 +208,7 @@ def _check_memory(nodes: int, layers: int, robots: int, limit: int) -> None:
     need = nodes * layers * BYTES_PER_NODE
     if need > limit:
         raise TooLargeError(
-            f"the optimum for {robots} robots needs at least {need / _GIB:.1f} GiB ({layers} steps of {nodes} cells "
-            f"and vertices), more than memory_limit, {limit / _GIB:.1f} GiB; plan fewer robots, a smaller area, "
+            f"the optimum for {robots} robots needs at least {need / GIB:.1f} GiB ({layers} steps of {nodes} cells "
+            f"and vertices), more than memory_limit, {limit / GIB:.1f} GiB; plan fewer robots, a smaller area, "
             f"or use planner 'fcost' and a lower bound"
         )
-
-
-def _available_memory() -> int:
-    """Return the bytes of memory that could be used now, or 8 GiB where the system does not tell."""
-    try:
-        with open("/proc/meminfo") as lines:
-            for line in lines:
-                if line.startswith("MemAvailable:"):
-                    return int(line.split()[1]) * 1024
-    except OSError:
-        pass
-    try:
-        return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-    except (AttributeError, ValueError, OSError):
-        return 8 * _GIB

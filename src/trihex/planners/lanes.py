@@ -65,6 +65,7 @@ def make_lanes(n_scheme: NScheme, *, all_there_are: bool = False, most_visits: i
         Look for no more lanes after visits to so many nodes, each of which takes about a quarter of a microsecond.
     """
     from trihex.kernels import lanes as kernels
+    from trihex.kernels.repair import renew_directions
 
     scenario = n_scheme.scenario
     layout, cost = scenario.area.layout, scenario.area.tessellation.cost_of_direction
@@ -78,6 +79,9 @@ def make_lanes(n_scheme: NScheme, *, all_there_are: bool = False, most_visits: i
     Wave(scenario, moves, along).lowered(np.concatenate([goals, sites]))
     forest = replace(n_scheme, distance_of_site=read_only(along))
     directions = make_d_scheme(forest).directions_of_site.copy()
+    # Beside a lane, and nowhere else, distances may differ by more than a move, which the D-scheme takes for granted.
+    offset, back = layout.offset_of_direction, layout.back_of_direction
+    renew_directions(sites, scenario.moves, offset, back, cost, along, directions)
     directions[sites] = direction[sites]
     return Lanes(forest, DScheme(forest, read_only(directions)), read_only(sites))
 

@@ -31,9 +31,7 @@ class Reservations:
         self.scenario, self.distance = scenario, n_scheme.distance_of_site
         layout, tessellation = scenario.area.layout, scenario.area.tessellation
         self._limit = available_memory() * 4 // 5 if memory_limit is None else memory_limit
-        offset, parity = layout.offset_of_direction, np.arange(2)[:, None]
-        other = (parity + offset) & 1
-        back = np.argmax(offset[other] == -offset[:, :, None], axis=2).astype(np.int32)
+        offset, back = layout.offset_of_direction, layout.back_of_direction
         self._forbids = scenario.crossing == "forbid" and tessellation.edge_count < tessellation.direction_count
         first_vertex_move = tessellation.edge_count if self._forbids else tessellation.direction_count
         ends = scenario.destinations.size if scenario.destination_capacity is not None else 0
