@@ -7,7 +7,8 @@ import trihex as th
 from tests import oracle_flow
 from tests.oracle_optimum import least_total_time
 from tests.strategies import random_scenario
-from trihex.planners import flow, make_plan
+from trihex.planners import earliest, flow, make_plan, optimal, planner_named
+from trihex.planners.network import Network
 
 
 def cannot_always_be_proven(scenario):
@@ -36,25 +37,58 @@ def test_the_least_total_time_is_that_of_or_tools(share):
         assert plan.total_time == oracle_flow.least_total_time(scenario, plan.steps + 5), seed
 
 
-@pytest.mark.parametrize("budget", [500_000, 20])
-def test_robots_served_one_after_another_cost_as_little(monkeypatch, budget):
-    served = []
-
-    def serve(network, cells, singly, *arguments):
-        served.append((singly, found := serve_as_ever(network, cells, singly, *arguments)))
-        return found
-
-    serve_as_ever = flow._serve
-    monkeypatch.setattr(flow, "_meet_seldom", lambda network, cells: True)
-    monkeypatch.setattr(flow, "_serve", serve)
-    monkeypatch.setattr(flow, "_BUDGET", budget)
-    for seed in range(1_000, 1_020):
+def least_total_times_by(monkeypatch, module, find, seeds, **changes):
+    """Plan the optimum by one way only; check it against OR-tools and return what the way gave."""
+    found = []
+    for name, value in changes.items():
+        monkeypatch.setattr(module, name, value)
+    way = getattr(optimal, find)
+    monkeypatch.setattr(
+        optimal, find, lambda *arguments, **options: found.append(way(*arguments, **options)) or found[-1]
+    )
+    for seed in seeds:
         scenario = crowded_scenario(seed)
         plan = make_plan(scenario, "optimal")
         assert th.audit_plan(plan).is_clean
         assert plan.total_time == oracle_flow.least_total_time(scenario, plan.steps + 5), seed
-    given_up = sum(found is None for _, found in served)
+    return found
+
+
+@pytest.mark.parametrize("budget", [500_000, 20])
+def test_robots_served_one_after_another_cost_as_little(monkeypatch, budget):
+    changes = {"_meet_seldom": lambda network, cells: True, "_BUDGET": budget}
+    found = least_total_times_by(monkeypatch, flow, "make_flow_singly", range(1_000, 1_020), **changes)
+    given_up = sum(one is None for one in found)
     assert given_up == 0 if budget > 20 else given_up > 0
+
+
+@pytest.mark.parametrize("budget", [500_000, 20])
+@pytest.mark.parametrize("planner", ["fcost", "greedy"])
+def test_slots_exchanged_for_earlier_ones_cost_as_little(monkeypatch, planner, budget):
+    monkeypatch.setattr(optimal, "make_flow_singly", lambda *arguments, **options: None)
+    monkeypatch.setattr(optimal, "plan_fcost", planner_named(planner))
+    changes = {"_BUDGET": budget, "_LOG": 16}
+    found = least_total_times_by(monkeypatch, earliest, "make_earliest_flow", range(2_000, 2_200), **changes)
+    assert len(found) >= 50
+
+
+@pytest.mark.parametrize("share", range(5))
+def test_the_ways_to_the_optimum_agree(monkeypatch, share):
+    monkeypatch.setattr(optimal, "make_flow_singly", lambda *arguments, **options: None)
+    compared = 0
+    for seed in range(share, 100, 5):
+        scenario = random_scenario(90_000 + seed, sides=(8, 24), most_robots=120)
+        for objective in ("time", "steps"):
+            with monkeypatch.context() as patch:
+                one = make_plan(scenario, "optimal", objective=objective)
+                patch.setattr(Network, "has_equal_steps", property(lambda self: False))
+                other = make_plan(scenario, "optimal", objective=objective)
+            if objective == "steps":
+                assert one.arrival_step_of_robot[one.arrived].sum() == other.arrival_step_of_robot[other.arrived].sum()
+            elif one.optimal and other.optimal:
+                assert one.total_time == other.total_time, seed
+                compared += 1
+    assert compared > 10
 
 
 @pytest.mark.parametrize("share", range(5))

@@ -58,14 +58,14 @@ from trihex.kernels.flow_search import (
     turn_ahead,
     visit,
 )
-from trihex.kernels.signatures import OUT_I64
+from trihex.kernels.signatures import OUT_I64, UNCOUNTED
 
 # Whose turn it is.
 NEXT_LEVEL, BACK, AHEAD = range(3)
 FIRST_QUOTA = 256
 
 
-@njit(nogil=True)
+@njit(nogil=True, **UNCOUNTED)
 def _look_ahead(layer, nodes, search, ends, state, budget):
     """Search from robots without path for an open destination; it is then the entry under way."""
     size = len(layer.hops)
@@ -93,7 +93,7 @@ def _look_ahead(layer, nodes, search, ends, state, budget):
     return BUDGET_SPENT
 
 
-@njit(nogil=True)
+@njit(nogil=True, **UNCOUNTED)
 def _spread(layer, ends, state):
     """Fill `away`."""
     size = len(layer.hops)
@@ -133,7 +133,7 @@ def _spread(layer, ends, state):
     state[SERVED_THEN] = state[SERVED]
 
 
-@njit(nogil=True)
+@njit(nogil=True, **UNCOUNTED)
 def _open_layer(row, layer, nodes, ends):
     """Set the bounds from the robots for the nodes of a layer as if there were no others."""
     size = len(layer.hops)
@@ -152,7 +152,7 @@ def _open_layer(row, layer, nodes, ends):
         nodes.since[at] = min(best, NEVER) << BITS
 
 
-@njit(nogil=True)
+@njit(nogil=True, **UNCOUNTED)
 def _start_level(layer, nodes, back, ahead, ends, state):
     """Open what may be used at the next level and list the roots of the searches."""
     size = len(layer.hops)
@@ -186,7 +186,7 @@ def _start_level(layer, nodes, back, ahead, ends, state):
     return BUDGET_SPENT
 
 
-@njit(types.int64(LAYER, NODES, SEARCH, SEARCH, ENDS, OUT_I64, types.int64), cache=True, nogil=True)
+@njit(types.int64(LAYER, NODES, SEARCH, SEARCH, ENDS, OUT_I64, types.int64), cache=True, nogil=True, **UNCOUNTED)
 def search(layer, nodes, back, ahead, ends, state, budget):
     """Serve robots, in order of level, until all have a path, room is needed or some `budget` nodes were looked at."""
     state[SPENT] = 0
@@ -201,8 +201,7 @@ def search(layer, nodes, back, ahead, ends, state, budget):
             continue
         quota = state[QUOTA]
         if state[TURN] == AHEAD:
-            # Where all steps cost the same, what the search ahead leaves in vain is dead for ever.
-            quota = 2 * quota if layer.base == 1 else max(FIRST_QUOTA, quota // 4)
+            quota = max(FIRST_QUOTA, quota // 4)
         state[SPENT] += quota
         if state[TURN] == BACK:
             if state[AGE] > len(layer.hops) // 4 and state[SERVED] > state[SERVED_THEN]:

@@ -40,6 +40,7 @@ from trihex.kernels.flow_search import (
     TURNS,
     VIA,
 )
+from trihex.kernels.signatures import UNCOUNTED
 
 # Bits of the least number of turns in a bound, and the most that it tells.
 BITS = 6
@@ -48,13 +49,13 @@ MOST_TURNS = (1 << BITS) - 1
 NEVER = (MARK >> BITS) - 1
 
 
-@njit(nogil=True)
+@njit(nogil=True, **UNCOUNTED)
 def _stands_back(seen, slack, turns, log):
     """Tell whether a visit with so much slack and so many turns is no better than one that has been."""
     return slack < log[seen, SLACK] or (slack == log[seen, SLACK] and turns >= log[seen, TURNS])
 
 
-@njit(nogil=True)
+@njit(nogil=True, **UNCOUNTED)
 def _offer(at, node, row, slack, seen_from, via, turns, since, log, own, heads):
     """Log a node that is worth a visit."""
     before = since[at]
@@ -78,7 +79,7 @@ def _offer(at, node, row, slack, seen_from, via, turns, since, log, own, heads):
     own[LOGGED] += 1
 
 
-@njit(nogil=True)
+@njit(nogil=True, **UNCOUNTED)
 def _visit(entry, out, into, hops, first_goal, flow, away, since, log, own, heads):
     """Offer the nodes before one, the nearest to a robot without path at last."""
     at, node, row, slack = log[entry, AT], log[entry, NODE], log[entry, ROW], log[entry, SLACK]
@@ -121,7 +122,7 @@ def _visit(entry, out, into, hops, first_goal, flow, away, since, log, own, head
         _offer(best_at, best_node, best_row, best_slack, entry, best_place, best_turns, since, log, own, heads)
 
 
-@njit(nogil=True)
+@njit(nogil=True, **UNCOUNTED)
 def _offer_goals(layer, nodes, search, ends, state):
     """Begin at all destinations that are open."""
     size = len(layer.hops)
@@ -136,7 +137,7 @@ def _offer_goals(layer, nodes, search, ends, state):
             _offer(at, at % size, row, slack, NONE, 0, 0, nodes.since, search.log, own, heads)
 
 
-@njit(nogil=True)
+@njit(nogil=True, **UNCOUNTED)
 def _look(out, into, hops, first_goal, flow, since, away, lacks, log, own, heads, budget):
     for _ in range(budget):
         while own[CURRENT] < TURN_LISTS and heads[own[CURRENT]] == NONE:
@@ -159,7 +160,7 @@ def _look(out, into, hops, first_goal, flow, since, away, lacks, log, own, heads
     return BUDGET_SPENT
 
 
-@njit(nogil=True)
+@njit(nogil=True, **UNCOUNTED)
 def look_back(layer, nodes, search, ends, state, budget):
     """Search for a robot without path; it is then the entry `LAST`."""
     own, log, heads = search.state, search.log, search.heads
@@ -171,7 +172,7 @@ def look_back(layer, nodes, search, ends, state, budget):
     return _look(*arcs, nodes.flow, nodes.since, ends.away, ends.lacks, log, own, heads, budget)
 
 
-@njit(nogil=True)
+@njit(nogil=True, **UNCOUNTED)
 def forget_back(since, search, more):
     """End the search; if no path of this level is left, what was visited costs `more` than was allowed for it."""
     log, own = search.log, search.state
@@ -186,7 +187,7 @@ def forget_back(since, search, more):
     own[LOGGED] = own[ROOT] = 0
 
 
-@njit(nogil=True)
+@njit(nogil=True, **UNCOUNTED)
 def turn_back(layer, nodes, log, entry):
     """Let a robot go from an entry to the root; return the node where it starts."""
     start = log[entry, NODE]

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 from numba import njit, types
 
-from trihex.kernels.signatures import IN_BOOL, IN_I32, IN_I64, OUT_I32, OUT_I64, OUT_U8
+from trihex.kernels.signatures import IN_BOOL, IN_I32, IN_I64, OUT_I32, OUT_I64, OUT_U8, UNCOUNTED
 
 # What a search ends with.
 BUDGET_SPENT, LIST_FULL, FOUND, EXHAUSTED, DONE, LAYERS_FULL, LEVELS_FULL = range(7)
@@ -104,7 +104,7 @@ SEARCH = types.NamedTuple([types.Array(types.int64, 2, "C"), OUT_I64, OUT_I64], 
 ENDS = types.NamedTuple([IN_I64, IN_I64, OUT_U8, OUT_I64, OUT_I32, OUT_I32], Ends)
 
 
-@njit(nogil=True)
+@njit(nogil=True, **UNCOUNTED)
 def visit(at, node, row, slack, seen_from, via, bound, log, own):
     """Log a node that is visited."""
     entry = own[LOGGED]
@@ -116,7 +116,7 @@ def visit(at, node, row, slack, seen_from, via, bound, log, own):
     own[CURRENT] = entry
 
 
-@njit(nogil=True)
+@njit(nogil=True, **UNCOUNTED)
 def _may_visit(at, slack, entry, bound, log, own):
     """Tell whether a node is worth a visit, and if not, note why."""
     before = bound[at]
@@ -134,7 +134,7 @@ def _may_visit(at, slack, entry, bound, log, own):
     return False
 
 
-@njit(nogil=True)
+@njit(nogil=True, **UNCOUNTED)
 def leave(bound, log, own):
     """Go back from the entry under way; what cannot reach anything visited before it is done with."""
     entry = own[CURRENT]
@@ -149,7 +149,7 @@ def leave(bound, log, own):
     own[LOGGED] = entry
 
 
-@njit(nogil=True)
+@njit(nogil=True, **UNCOUNTED)
 def forget(bound, search, more):
     """Begin again from the same root; the bounds of what is not done with are no less than its slack plus `more`."""
     log, state = search.log, search.state
@@ -164,7 +164,7 @@ def forget(bound, search, more):
     state[SHORT] = MARK
 
 
-@njit(nogil=True)
+@njit(nogil=True, **UNCOUNTED)
 def _step_against(at, node, j, entry, via, out, into, first_goal, all_flow, ahead, log, own):
     """Visit the node from which flow comes along arc j into a node, if that is worth it."""
     slack = log[entry, SLACK] + into[node, j, REDUCED]
@@ -177,7 +177,7 @@ def _step_against(at, node, j, entry, via, out, into, first_goal, all_flow, ahea
     return True
 
 
-@njit(nogil=True)
+@njit(nogil=True, **UNCOUNTED)
 def step_ahead(entry, out, into, first_goal, all_flow, ahead, log, own):
     """Visit that node after the one under way which is nearest to a destination; False if none is left."""
     at, node, slack = log[entry, AT], log[entry, NODE], log[entry, SLACK]
@@ -218,7 +218,7 @@ def step_ahead(entry, out, into, first_goal, all_flow, ahead, log, own):
     return _step_against(at, node, j, entry, OWN, out, into, first_goal, all_flow, ahead, log, own)
 
 
-@njit(nogil=True)
+@njit(nogil=True, **UNCOUNTED)
 def turn_ahead(out, into, first_goal, flow, log, entry):
     """Let a robot go from the root to an entry; return the node where it starts."""
     flow[log[entry, AT]] += 1

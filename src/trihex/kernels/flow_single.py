@@ -48,7 +48,7 @@ from trihex.kernels.flow_search import (
     VISITS,
     turn_ahead,
 )
-from trihex.kernels.signatures import OUT_I64
+from trihex.kernels.signatures import OUT_I64, UNCOUNTED
 
 # Columns of the log: as in flow_search, but here the cost beyond the value so far.
 COST = SLACK
@@ -58,13 +58,13 @@ FURTHER = LISTS - 1
 BASE = ROOT
 
 
-@njit(nogil=True)
+@njit(nogil=True, **UNCOUNTED)
 def _stands_back(seen, cost, turns, log):
     """Tell whether a visit at such a cost and with so many turns is no better than one that has been."""
     return cost > log[seen, COST] or (cost == log[seen, COST] and turns >= log[seen, TURNS])
 
 
-@njit(nogil=True)
+@njit(nogil=True, **UNCOUNTED)
 def _put(entry, ahead, log, own, heads, cost_now):
     """Put an entry on the list of its least total of turns, or, if it costs more, on that of its cost."""
     bound = ahead[log[entry, AT]]
@@ -80,7 +80,7 @@ def _put(entry, ahead, log, own, heads, cost_now):
     heads[which] = entry
 
 
-@njit(nogil=True)
+@njit(nogil=True, **UNCOUNTED)
 def _offer(at, node, cost, turns, seen_from, via, ahead, log, own, heads, cost_now):
     """Log a node that is worth a visit."""
     if ahead[at] >= MARK and _stands_back(ahead[at] - MARK, cost, turns, log):
@@ -92,7 +92,7 @@ def _offer(at, node, cost, turns, seen_from, via, ahead, log, own, heads, cost_n
     _put(entry, ahead, log, own, heads, cost_now)
 
 
-@njit(nogil=True)
+@njit(nogil=True, **UNCOUNTED)
 def _visit(entry, out, into, first_goal, flow, ahead, log, own, heads, cost_now):
     """Offer the nodes after one, those nearest to a destination at last."""
     at, node, cost, turns = log[entry, AT], log[entry, NODE], log[entry, COST], log[entry, TURNS]
@@ -131,7 +131,7 @@ def _visit(entry, out, into, first_goal, flow, ahead, log, own, heads, cost_now)
         _offer(head, other, more, more_turns, entry, via, ahead, log, own, heads, cost_now)
 
 
-@njit(nogil=True)
+@njit(nogil=True, **UNCOUNTED)
 def _forget(ahead, log, own, cost_now):
     """End the search: no path from the root costs less, nor as much with fewer turns."""
     for entry in range(own[LOGGED]):
@@ -142,7 +142,7 @@ def _forget(ahead, log, own, cost_now):
     own[LOGGED] = 0
 
 
-@njit(nogil=True)
+@njit(nogil=True, **UNCOUNTED)
 def _raise_cost(ahead, log, own, heads, cost_now):
     """Go on with the nodes of the next higher cost, and return that."""
     which = TURN_LISTS + cost_now + 1 - own[BASE]
@@ -169,7 +169,7 @@ def _raise_cost(ahead, log, own, heads, cost_now):
     return cost_now
 
 
-@njit(nogil=True)
+@njit(nogil=True, **UNCOUNTED)
 def _serve(start, value, out, into, first_goal, capacity, flow, ahead, log, own, heads, state, budget):
     size = len(out)
     for _ in range(budget):
@@ -214,7 +214,7 @@ def _serve(start, value, out, into, first_goal, capacity, flow, ahead, log, own,
     return BUDGET_SPENT
 
 
-@njit(types.int64(LAYER, NODES, SEARCH, ENDS, OUT_I64, types.int64), cache=True, nogil=True)
+@njit(types.int64(LAYER, NODES, SEARCH, ENDS, OUT_I64, types.int64), cache=True, nogil=True, **UNCOUNTED)
 def serve_singly(layer, nodes, search, ends, state, budget):
     """Serve robots, the farthest first, until all have a path, room is needed or some `budget` nodes were visited.
 

@@ -1,6 +1,9 @@
 """The array types that kernels declare: read-only where they read, plain where they fill."""
 
+from typing import Any
+
 from numba import types
+from numba.core.options import DefaultOptions
 
 from trihex import kernels
 
@@ -29,3 +32,8 @@ OUT_I32 = _array(types.int32, False)
 OUT_I64 = _array(types.int64, False)
 TABLE_I32 = _table(types.int32)
 MASK = types.Array(types.boolean, 2, "C", readonly=True)
+
+# For functions that make no arrays. Whenever one calls another, numba counts references to all arrays that it hands
+# over, as if they might be its own; where a search calls for each arc, that takes 3 to 7 times as long as all the rest.
+# The option is not documented; numba without it is only slower.
+UNCOUNTED: Any = {"_nrt": False} if hasattr(DefaultOptions, "_nrt") else {}

@@ -44,36 +44,47 @@ class Flow:
     total: int
 
 
-def make_flow(
+def make_flow_singly(
     network: Network,
     cells: NDArray[np.int64],
     *,
     progress: Callable[[int, int], None] | None = None,
     memory_limit: int | None = None,
-) -> Flow:
-    """Find paths of least total cost for robots that start in `cells`, nodes of the network.
+) -> Flow | None:
+    """Find paths of least total cost for robots that start in `cells`, one after another, if they seldom meet.
 
     Parameters
     ----------
     network : Network
     cells : ndarray of int64
-        In ascending order of value.
+        Nodes, in ascending order of value.
     progress : callable, optional
         Called with (robots with a path, robots).
     memory_limit : int, optional
         In bytes. Default: 80 % of what is available.
+
+    Returns
+    -------
+    Flow or None
+        None if they meet too often for that.
 
     Raises
     ------
     TooLargeError
         If the layers would take more than `memory_limit`.
     """
-    limit = available_memory() * 4 // 5 if memory_limit is None else memory_limit
-    flow = None
-    if _meet_seldom(network, cells):
-        flow = _serve(network, cells, True, progress, limit)
-    if flow is None:
-        flow = _serve(network, cells, False, progress, limit)
+    return _serve(network, cells, True, progress, memory_limit) if _meet_seldom(network, cells) else None
+
+
+def make_flow_by_levels(
+    network: Network,
+    cells: NDArray[np.int64],
+    *,
+    progress: Callable[[int, int], None] | None = None,
+    memory_limit: int | None = None,
+) -> Flow:
+    """Find paths of least total cost in order of cost; for parameters and errors see `make_flow_singly`."""
+    flow = _serve(network, cells, False, progress, memory_limit)
     assert flow is not None, "only those who are served singly are given up"
     return flow
 
@@ -83,7 +94,7 @@ def _serve(
     cells: NDArray[np.int64],
     singly: bool,
     progress: Callable[[int, int], None] | None,
-    limit: int,
+    memory_limit: int | None,
 ) -> Flow | None:
     """Find the paths one robot after another, or None if they meet too often for that; else in order of cost."""
     from trihex.kernels import flow as crowd
@@ -92,7 +103,7 @@ def _serve(
 
     size = network.node_count
     layers = _least_layers(network, cells) + 8
-    _check_memory(size, layers, cells.size, limit)
+    check_memory(size, layers, cells.size, BYTES_PER_NODE, memory_limit)
     layer = _make_layer(network)
     nodes = kernels.Nodes(*(np.zeros(layers * size, dtype) for dtype in (np.uint8, np.int32, np.int32)))
     back, ahead = (_make_search(_LIST) for _ in range(2))
@@ -127,7 +138,7 @@ def _serve(
             back, ahead = _with_room(back, needed), _with_room(ahead, 0)
         elif status == kernels.LAYERS_FULL:
             more = max(8, layers // 2)
-            _check_memory(size, layers + more, cells.size, limit)
+            check_memory(size, layers + more, cells.size, BYTES_PER_NODE, memory_limit)
             nodes = kernels.Nodes(*(_grown(array, array.size // layers * more) for array in nodes))
             ends = ends._replace(goals=_grown(ends.goals, ends.goals.size // layers * more))
             layers += more
@@ -141,14 +152,12 @@ def _make_layer(network: Network) -> Any:
     from trihex.kernels import flow_search as kernels
 
     capacity = network.scenario.destination_capacity
-    nodes = np.arange(network.node_count)
-    is_vertex = (nodes >= network.cell_count) & (nodes < network.first_destination)
     return kernels.Layer(
         network.out_arcs,
         network.in_arcs,
         network.hops,
-        read_only(np.lexsort((is_vertex, -network.hops)).astype(np.int32)),
-        read_only(is_vertex),
+        network.order,
+        network.is_vertex,
         network.first_destination,
         255 if capacity is None else min(capacity, 255),
         network.base,
@@ -186,8 +195,7 @@ def _meet_seldom(network: Network, cells: NDArray[np.int64]) -> bool:
 
 def _doors(network: Network) -> int:
     """Return how many robots can arrive in a step, at most."""
-    arcs = np.count_nonzero(network.in_arcs[network.first_destination :, :, 0], axis=1)
-    return max(1, int(np.minimum(arcs, network.scenario.destination_capacity or arcs).sum()))
+    return max(1, int(network.room.sum()))
 
 
 def _grown(array: NDArray[Any], more: int) -> NDArray[Any]:
@@ -204,8 +212,10 @@ def _least_layers(network: Network, cells: NDArray[np.int64]) -> int:
     return int((hops + behind // _doors(network)).max(initial=0)) + 1
 
 
-def _check_memory(nodes: int, layers: int, robots: int, limit: int) -> None:
-    need = nodes * layers * BYTES_PER_NODE
+def check_memory(nodes: int, layers: int, robots: int, bytes_per_node: int, memory_limit: int | None) -> None:
+    """Refuse what would take more than `memory_limit`, by default 80 % of what is available."""
+    limit = available_memory() * 4 // 5 if memory_limit is None else memory_limit
+    need = nodes * layers * bytes_per_node
     if need > limit:
         raise TooLargeError(
             f"the optimum for {robots} robots needs at least {need / GIB:.1f} GiB ({layers} steps of {nodes} cells "

@@ -72,6 +72,28 @@ class Network(Record):
         return self.cell_count + self.vertex_count
 
     @cached_property
+    def is_vertex(self) -> NDArray[np.bool_]:
+        """Whether each node is a lattice vertex."""
+        node = np.arange(self.node_count)
+        return read_only((node >= self.cell_count) & (node < self.first_destination))
+
+    @cached_property
+    def order(self) -> NDArray[np.int32]:
+        """All nodes, so that arcs within a layer go forward."""
+        return read_only(np.lexsort((self.is_vertex, -self.hops)).astype(np.int32))
+
+    @cached_property
+    def room(self) -> NDArray[np.int64]:
+        """How many robots get into each destination in a step."""
+        arcs = np.count_nonzero(self.in_arcs[self.first_destination :, :, 0], axis=1)
+        return read_only(np.minimum(arcs, self.scenario.destination_capacity or arcs))
+
+    @property
+    def has_equal_steps(self) -> bool:
+        """Whether every step costs the same, so that it only matters when robots arrive."""
+        return self.base == 1 and not self.out_arcs[:, :, 3].any()
+
+    @cached_property
     def node_of_site(self) -> NDArray[np.int32]:
         """Node of each site that is a cell or a destination, -1 elsewhere."""
         node = np.full(self.scenario.area.layout.size, -1, dtype=np.int32)

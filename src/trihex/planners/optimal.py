@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from trihex.errors import PlanError, check_choice
 from trihex.plan import Plan
-from trihex.planners.flow import Flow, make_flow
+from trihex.planners.earliest import make_earliest_flow
+from trihex.planners.fcost import plan_fcost
+from trihex.planners.flow import Flow, make_flow_by_levels, make_flow_singly
 from trihex.planners.greedy import plan_greedy
-from trihex.planners.network import OBJECTIVES, make_network
+from trihex.planners.network import OBJECTIVES, Network, make_network
 from trihex.schemes import NOT_REACHED, NScheme
 
 
@@ -64,8 +67,20 @@ def plan_optimal(
     network = make_network(n_scheme, objective)
     cells = network.node_of_site[sites[going]].astype(np.int64)
     order = np.argsort(network.value[cells], kind="stable")
-    flow = make_flow(network, cells[order], progress=progress, memory_limit=memory_limit)
+    flow = _find_flow(n_scheme, network, cells[order], going[order], progress=progress, memory_limit=memory_limit)
     return _make_plan(flow, going[order], proves=objective == "time")
+
+
+def _find_flow(
+    n_scheme: NScheme, network: Network, cells: NDArray[np.int64], robots: NDArray[np.int64], **options: Any
+) -> Flow:
+    """Find the flow of least cost by the way that is quickest as robots crowd or not."""
+    flow = make_flow_singly(network, cells, **options)
+    if flow is not None:
+        return flow
+    if network.has_equal_steps:
+        return make_earliest_flow(network, cells, robots, plan_fcost(n_scheme), **options)
+    return make_flow_by_levels(network, cells, **options)
 
 
 def _make_plan(flow: Flow, robots: NDArray[np.int64], proves: bool) -> Plan:
