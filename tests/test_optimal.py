@@ -151,3 +151,24 @@ def test_what_would_not_fit_is_refused_with_the_estimate():
         make_plan(scenario, "optimal", memory_limit=1000)
     with pytest.raises(th.PlanError, match="objective must be one of time, steps, not 'step'; did you mean 'steps'"):
         make_plan(scenario, "optimal", objective="step")
+
+
+@pytest.mark.parametrize("tessellation", ["hexagonal", "triangular"])
+def test_a_search_that_outgrows_the_limit_is_refused_too(monkeypatch, tessellation):
+    area = th.make_caves_area(tessellation, 40, 40, seed=2)
+    scenario = th.Scenario(area, th.random_robots(area, 1, seed=2), th.random_robots(area, 300, seed=1))
+    needs = []
+
+    def check(network, cells, layers, need, limit):
+        needs.append(need)
+        check_as_ever(network, cells, layers, need, needs[0])
+
+    check_as_ever = flow.check_memory
+    for module in (flow, earliest):
+        monkeypatch.setattr(module, "check_memory", check)
+    monkeypatch.setattr(optimal, "make_flow_singly", lambda *arguments, **options: None)
+    monkeypatch.setattr(earliest, "_LOG", 16)
+    with pytest.raises(th.TooLargeError, match="the optimum for 300 robots needs at least"):
+        make_plan(scenario, "optimal")
+    assert len(needs) == 2
+    assert needs[1] > needs[0]

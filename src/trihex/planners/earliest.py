@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.plan import Plan
-from trihex.planners.flow import Flow, check_memory
+from trihex.planners.flow import Flow, check_memory, default_limit
 from trihex.planners.network import Network
 
 # Bytes for each node of a layer: a word, and its flow in the end.
@@ -52,7 +52,8 @@ def make_earliest_flow(
 
     size = network.node_count
     layers = int(plan.arrival_step_of_robot[robots].max(initial=0)) + 1
-    check_memory(size, layers, cells.size, _BYTES_PER_NODE, memory_limit)
+    limit = default_limit() if memory_limit is None else memory_limit
+    check_memory(network, cells, layers, layers * size * _BYTES_PER_NODE, limit)
     words = np.zeros(layers * size, dtype=np.uint32)
     start = network.hops[cells].astype(np.int64) * size + cells
     layout = network.scenario.area.layout
@@ -69,6 +70,7 @@ def make_earliest_flow(
     status = BUDGET_SPENT
     while status != DONE:
         if status == LIST_FULL:
+            check_memory(network, cells, layers, layers * size * _BYTES_PER_NODE + 3 * log.nbytes, limit)
             log = np.concatenate([log, np.empty_like(log)])
         status = kernels.fill_slots(
             *(network.out_arcs, network.in_arcs, network.first_destination, network.room),

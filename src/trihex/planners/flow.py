@@ -103,7 +103,8 @@ def _serve(
 
     size = network.node_count
     layers = _least_layers(network, cells) + 8
-    check_memory(size, layers, cells.size, BYTES_PER_NODE, memory_limit)
+    limit = default_limit() if memory_limit is None else memory_limit
+    check_memory(network, cells, layers, layers * size * BYTES_PER_NODE, limit)
     layer = _make_layer(network)
     nodes = kernels.Nodes(*(np.zeros(layers * size, dtype) for dtype in (np.uint8, np.int32, np.int32)))
     back, ahead = (_make_search(_LIST) for _ in range(2))
@@ -137,10 +138,12 @@ def _serve(
             return None
         if status == kernels.LIST_FULL:
             needed = int(state[kernels.OPEN_GOALS])
+            log_bytes = max(back.log.nbytes, ahead.log.nbytes)
+            check_memory(network, cells, layers, layers * size * BYTES_PER_NODE + 3 * log_bytes, limit)
             back, ahead = _with_room(back, needed), _with_room(ahead, 0)
         elif status == kernels.LAYERS_FULL:
             more = max(8, layers // 2)
-            check_memory(size, layers + more, cells.size, BYTES_PER_NODE, memory_limit)
+            check_memory(network, cells, layers + more, (layers + more) * size * BYTES_PER_NODE, limit)
             nodes = kernels.Nodes(*(_grown(array, array.size // layers * more) for array in nodes))
             ends = ends._replace(goals=_grown(ends.goals, ends.goals.size // layers * more))
             layers += more
@@ -214,13 +217,16 @@ def _least_layers(network: Network, cells: NDArray[np.int64]) -> int:
     return int((hops + behind // _doors(network)).max(initial=0)) + 1
 
 
-def check_memory(nodes: int, layers: int, robots: int, bytes_per_node: int, memory_limit: int | None) -> None:
-    """Refuse what would take more than `memory_limit`, by default 80 % of what is available."""
-    limit = available_memory() * 4 // 5 if memory_limit is None else memory_limit
-    need = nodes * layers * bytes_per_node
+def default_limit() -> int:
+    """Return 80 % of the memory that is available."""
+    return available_memory() * 4 // 5
+
+
+def check_memory(network: Network, cells: NDArray[np.int64], layers: int, need: int, limit: int) -> None:
+    """Refuse what needs more bytes than the limit."""
     if need > limit:
         raise TooLargeError(
-            f"the optimum for {robots} robots needs at least {need / GIB:.1f} GiB ({layers} steps of {nodes} cells "
-            f"and vertices), more than memory_limit, {limit / GIB:.1f} GiB; plan fewer robots, a smaller area, "
-            f"or use planner 'fcost' and a lower bound"
+            f"the optimum for {cells.size} robots needs at least {need / GIB:.1f} GiB ({layers} steps of "
+            f"{network.node_count} cells and vertices), more than memory_limit, {limit / GIB:.1f} GiB; plan fewer "
+            f"robots, a smaller area, or use planner 'fcost' and a lower bound"
         )
