@@ -9,7 +9,18 @@ hashing, and the open ones in a heap.
 import numpy as np
 from numba import njit, types
 
-from trihex.kernels.signatures import IN_BOOL, IN_I32, IN_I64, IN_U8, IN_U16, OUT_I32, OUT_I64, OUT_U8, TABLE_I32
+from trihex.kernels.signatures import (
+    IN_BOOL,
+    IN_I32,
+    IN_I64,
+    IN_U8,
+    IN_U16,
+    OUT_I32,
+    OUT_I64,
+    OUT_U8,
+    TABLE_I32,
+    UNCOUNTED,
+)
 
 WAIT = 254
 FOUND, NOTHING, BUDGET_SPENT, LIST_FULL = 0, 1, 2, 3
@@ -21,20 +32,20 @@ _NODE_LISTS = types.Array(types.int32, 2, "C")
 SITE, STEP, PARENT, ACTION, PLACE = range(5)
 
 
-@njit(nogil=True)
+@njit(nogil=True, **UNCOUNTED)
 def _is_before(estimate, left, a, b):
     """Tell whether entry `a` of the heap comes first: the lower estimate, then the nearer node."""
     return estimate[a] < estimate[b] or (estimate[a] == estimate[b] and left[a] < left[b])
 
 
-@njit(nogil=True)
+@njit(nogil=True, **UNCOUNTED)
 def _swap(estimate, left, node, a, b):
     estimate[a], estimate[b] = estimate[b], estimate[a]
     left[a], left[b] = left[b], left[a]
     node[a], node[b] = node[b], node[a]
 
 
-@njit(nogil=True)
+@njit(nogil=True, **UNCOUNTED)
 def _push(estimate, left, node, size, its_estimate, its_left, its_node):
     estimate[size] = its_estimate
     left[size] = its_left
@@ -45,7 +56,7 @@ def _push(estimate, left, node, size, its_estimate, its_left, its_node):
         at = (at - 1) // 2
 
 
-@njit(nogil=True)
+@njit(nogil=True, **UNCOUNTED)
 def _drop_first(estimate, left, node, size):
     """Remove the first entry of a heap of `size` entries."""
     size -= 1
@@ -63,7 +74,7 @@ def _drop_first(estimate, left, node, size):
         at = child
 
 
-@njit(nogil=True)
+@njit(nogil=True, **UNCOUNTED)
 def _find_place(site, step, nodes, table):
     """Return where in the hash table a node stands, or would."""
     mask = len(table) - 1
@@ -74,7 +85,7 @@ def _find_place(site, step, nodes, table):
     return place
 
 
-@njit(nogil=True)
+@njit(nogil=True, **UNCOUNTED)
 def _is_open(site, k, step, rules, offset, vertex, back, distance, number, reserved, passed, entries):
     """Tell whether a robot may leave `site` by direction `k` so that it is there in `step`."""
     _, first_vertex_move, capacity, rows, size, ends = rules
@@ -90,7 +101,7 @@ def _is_open(site, k, step, rules, offset, vertex, back, distance, number, reser
     return reserved[step * size + site] != 1 + back[site & 1, k]
 
 
-@njit(nogil=True)
+@njit(nogil=True, **UNCOUNTED)
 def clear(nodes, table, state):
     """Forget the nodes of the last search."""
     for i in range(state[NODES]):
@@ -103,6 +114,7 @@ def clear(nodes, table, state):
     types.int64(types.int64, IN_I32, IN_I64, TABLE_I32, TABLE_I32, TABLE_I32, IN_I32, IN_I32, IN_U8, IN_U8, IN_I32),
     cache=True,
     nogil=True,
+    **UNCOUNTED,
 )
 def find_first_entry(step, gates, rules, offset, vertex, back, distance, number, reserved, passed, entries):
     """Return the first step from `step` on in which a destination can be entered from one of the sites `gates`."""
@@ -124,6 +136,7 @@ def find_first_entry(step, gates, rules, offset, vertex, back, distance, number,
     types.void(types.int64, IN_I32, _NODE_LISTS, OUT_I64, OUT_I32, OUT_I64, OUT_I32, OUT_I32, OUT_I64),
     cache=True,
     nogil=True,
+    **UNCOUNTED,
 )
 def begin(start, distance, nodes, cost_of_node, table, estimate, left, node, state):
     """Begin a search at a site."""
@@ -149,6 +162,7 @@ def begin(start, distance, nodes, cost_of_node, table, estimate, left, node, sta
     ),
     cache=True,
     nogil=True,
+    **UNCOUNTED,
 )
 def search(
     rules,
@@ -183,8 +197,10 @@ def search(
     nearest first, so that a robot whom nobody hinders walks straight on.
     """
     waiting_cost, _, _, rows, size, _ = rules
-    least_cost = min(waiting_cost, np.int64(cost.min()))
     directions = offset.shape[1]
+    least_cost = waiting_cost
+    for k in range(directions):
+        least_cost = min(least_cost, np.int64(cost[k]))
     most = nodes.shape[1]
     while state[OPEN] > 0:
         if budget <= 0:
@@ -246,7 +262,7 @@ def search(
     return NOTHING
 
 
-@njit(types.int64(_NODE_LISTS, OUT_I64, types.int64, OUT_U8), cache=True, nogil=True)
+@njit(types.int64(_NODE_LISTS, OUT_I64, types.int64, OUT_U8), cache=True, nogil=True, **UNCOUNTED)
 def write_way(nodes, state, directions, actions):
     """Fill the actions that lead to the goal, 255 for a wait, and return their number."""
     at = state[GOAL]
@@ -264,6 +280,7 @@ def write_way(nodes, state, directions, actions):
     ),
     cache=True,
     nogil=True,
+    **UNCOUNTED,
 )
 def reserve(start, actions, is_on, rules, offset, vertex, distance, number, reserved, passed, entries):
     """Reserve a way, or free it again. The tables have a row for each of its steps."""
