@@ -57,8 +57,10 @@ def seconds_of(n_scheme: th.NScheme) -> tuple[float, th.Plan]:
 
 
 def warm_up() -> None:
+    """Load all kernels: few robots are served one after another, crowds are not."""
     for tessellation in ("hexagonal", "triangular"):
-        seconds_of(th.make_n_scheme(scenario_on(area_of(None, tessellation, "random-64-64-20"), 20, 1)))
+        for robots in (20, 300):
+            seconds_of(th.make_n_scheme(scenario_on(area_of(None, tessellation, "random-64-64-20"), robots, 1)))
 
 
 def run_case(maps: Path | None, case: Case, seeds: list[int]) -> None:

@@ -159,12 +159,30 @@ def test_lanes_share_nothing_and_all_cells_join_them(seed):
     distance = made.n_scheme.distance
     assert {cell: int(distance[cell[1], cell[0]]) for cell in cost} == cost
     assert np.array_equal(distance < 2**31 - 1, n_scheme.distance < 2**31 - 1)
-    for here in others:
+    check_directions(made, others, cost, rules)
+
+
+def check_directions(made, cells, cost, rules):
+    """Each direction of the cells leads on by one of the cheapest ways, and all of them are there."""
+    tessellation = rules.scenario.area.tessellation
+    for here in cells:
         bits = int(made.d_scheme.directions[here[1], here[0]])
-        side = int(scenario.area.tessellation.orientation_of_cell(*here))
-        steps = scenario.area.tessellation.step_of_direction[side].tolist()
+        steps = tessellation.step_of_direction[int(tessellation.orientation_of_cell(*here))].tolist()
         ends = {(here[0] + dx, here[1] + dy) for k, (dx, dy) in enumerate(steps) if bits >> k & 1}
-        assert ends == {other for other, paid in rules.neighbours(here) if cost[here] == cost[other] + paid}
+        assert ends == {other for other, paid in rules.neighbours(here) if cost[here] == cost[other] + paid}, here
+
+
+def test_directions_beside_lanes_are_right_where_distances_differ_by_far_more_than_a_move():
+    """The D-scheme compares distances in 16 bits, which tells two neighbours apart only if they are not 2^16 apart."""
+    area = th.make_rooms_area(th.Tessellation("triangular", costs="euclidean"), 60, 80, seed=255)
+    goals = th.random_robots(area, 2, seed=255)
+    scenario = th.Scenario(area, goals, th.random_robots(area, 200, seed=256, avoid=goals))
+    made = make_lanes(th.make_n_scheme(scenario), all_there_are=True)
+    rules = Rules(scenario)
+    in_lanes = {cell for way in made.ways for cell in rules.places(way)}
+    distance = made.n_scheme.distance
+    cost = {cell: int(distance[cell[1], cell[0]]) for cell in rules.reachable()}
+    check_directions(made, set(cost) - in_lanes - set(rules.places(scenario.destinations)), cost, rules)
 
 
 @pytest.mark.parametrize("seed", range(6))

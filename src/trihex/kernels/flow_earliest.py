@@ -9,7 +9,7 @@ none, then nothing that the search has seen will ever lead to a late path, and i
 
 The nodes are those of `trihex.planners.network`, one word each: flow, as in `trihex.kernels.flow_search`; label, the
 least number of flows turned back from a late path to here, as far as known, or `DEAD`; the same number from the slot
-(`SEEN` at 0) and whether the node was opened, in the search under way; whether it is settled. A search minds slots in
+(`SEEN` at 0) and whether the node was opened, in the search under way; whether it is settled. Nodes are opened in
 order of turns so far plus label, depth first. Labels are hints where to look; only death is proven.
 """
 
