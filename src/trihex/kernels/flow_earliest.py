@@ -41,9 +41,9 @@ NEXT = TRIED
 LEFT = 255
 NONE = (1 << 32) - 1
 # Places in the state: slot under way; robots settled and the sum of their steps; length of the log (0: no search),
-# list, first entry of the walk, entry under way.
-STEP, GOAL, SERVED, TOTAL, LOGGED, LIST, FIRST, ENTRY = range(8)
-STATE_SIZE = 8
+# list, first entry of the walk, entry under way; how many nodes may still be looked at.
+STEP, GOAL, SERVED, TOTAL, LOGGED, LIST, FIRST, ENTRY, BUDGET = range(9)
+STATE_SIZE = 9
 WAIT = 255
 
 WORDS = types.Array(types.uint32, 1, "C")
@@ -204,9 +204,10 @@ def _see(entry, j, out, into, first_goal, words, log, heads, state):
 
 
 @njit(nogil=True, **UNCOUNTED)
-def _look(out, into, first_goal, words, log, heads, state, budget):
+def _look(out, into, first_goal, words, log, heads, state):
     """Search back for a late path; `ENTRY` is then the node it comes to, by the arc `TRIED`."""
-    for _ in range(budget):
+    while state[BUDGET] > 0:
+        state[BUDGET] -= 1
         if state[LOGGED] + into.shape[1] > len(log):
             return LIST_FULL
         entry = state[ENTRY]
@@ -338,15 +339,15 @@ def fill_slots(out, into, first_goal, room, robots, words, log, heads, state, bu
     `room` tells how many get into each destination in a step.
     """
     size = len(out)
-    spent = 0
+    state[BUDGET] = budget
     while state[SERVED] < robots:
-        spent += 1
-        if spent == budget:
+        if state[BUDGET] <= 0:
             return BUDGET_SPENT
         if state[LOGGED] == 0:
+            state[BUDGET] -= 1
             _next_slot(size, into, first_goal, room, words, log, heads, state)
             continue
-        status = _look(out, into, first_goal, words, log, heads, state, budget)
+        status = _look(out, into, first_goal, words, log, heads, state)
         if status == BUDGET_SPENT or status == LIST_FULL:
             return status
         if status == FOUND:
