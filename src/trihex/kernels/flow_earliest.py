@@ -310,11 +310,8 @@ def _next_slot(size, into, first_goal, room, words, log, heads, state):
             state[SERVED] += settled
             state[TOTAL] += settled * state[STEP]
         return
-    if words[slot] & FLOW >= room[goal - first_goal]:
-        state[GOAL] += 1
-        return
     label = words[slot] // LABEL & DEAD
-    if label == DEAD:
+    if label == DEAD or words[slot] & FLOW >= room[goal - first_goal]:
         state[GOAL] += 1
         return
     heads[:] = NONE
@@ -325,10 +322,7 @@ def _next_slot(size, into, first_goal, room, words, log, heads, state):
 
 
 @njit(
-    types.int64(
-        *(TABLE, TABLE, types.int64, IN_I64, types.int64),
-        *(WORDS, LOG, OUT_I64, OUT_I64, types.int64),
-    ),
+    types.int64(*(TABLE, TABLE, types.int64, IN_I64, types.int64), *(WORDS, LOG, OUT_I64, OUT_I64, types.int64)),
     cache=True,
     nogil=True,
     **UNCOUNTED,
