@@ -199,9 +199,7 @@ def search(layer, nodes, back, ahead, ends, state, budget):
             if status != BUDGET_SPENT:
                 return status
             continue
-        quota = state[QUOTA]
-        if state[TURN] == AHEAD:
-            quota = max(FIRST_QUOTA, quota // 4)
+        quota = state[QUOTA] if state[TURN] == BACK else max(FIRST_QUOTA, state[QUOTA] // 4)
         state[SPENT] += quota
         if state[TURN] == BACK:
             if state[AGE] > len(layer.hops) // 4 and state[SERVED] > state[SERVED_THEN]:

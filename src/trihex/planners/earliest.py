@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.plan import Plan
-from trihex.planners.flow import Flow, check_memory, default_limit
+from trihex.planners.flow import Flow, check_memory
+from trihex.planners.memory import limit_or_default
 from trihex.planners.network import Network
 
 # Bytes for each node of a layer: a word, and its flow in the end.
@@ -52,7 +53,7 @@ def make_earliest_flow(
 
     size = network.node_count
     layers = int(plan.arrival_step_of_robot[robots].max(initial=0)) + 1
-    limit = default_limit() if memory_limit is None else memory_limit
+    limit = limit_or_default(memory_limit)
     check_memory(network, cells, layers, layers * size * _BYTES_PER_NODE, limit)
     words = np.zeros(layers * size, dtype=np.uint32)
     start = network.hops[cells].astype(np.int64) * size + cells

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.errors import TooLargeError
-from trihex.planners.memory import GIB, available_memory
+from trihex.planners.memory import GIB, limit_or_default
 from trihex.planners.network import Network
 from trihex.record import read_only
 
@@ -103,7 +103,7 @@ def _serve(
 
     size = network.node_count
     layers = _least_layers(network, cells) + 8
-    limit = default_limit() if memory_limit is None else memory_limit
+    limit = limit_or_default(memory_limit)
     check_memory(network, cells, layers, layers * size * BYTES_PER_NODE, limit)
     layer = _make_layer(network)
     nodes = kernels.Nodes(*(np.zeros(layers * size, dtype) for dtype in (np.uint8, np.int32, np.int32)))
@@ -215,11 +215,6 @@ def _least_layers(network: Network, cells: NDArray[np.int64]) -> int:
     hops = np.sort(network.hops[cells])
     behind = np.arange(cells.size)[::-1]
     return int((hops + behind // _doors(network)).max(initial=0)) + 1
-
-
-def default_limit() -> int:
-    """Return 80 % of the memory that is available."""
-    return available_memory() * 4 // 5
 
 
 def check_memory(network: Network, cells: NDArray[np.int64], layers: int, need: int, limit: int) -> None:

@@ -13,3 +13,8 @@ def available_memory() -> int:
         return int(found[0].split()[1]) * 1024
     except (OSError, IndexError):
         return int(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
+
+
+def limit_or_default(memory_limit: int | None) -> int:
+    """Return the limit that the user set, in bytes, or else 80 % of what is available."""
+    return available_memory() * 4 // 5 if memory_limit is None else memory_limit

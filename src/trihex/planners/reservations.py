@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.errors import TooLargeError
-from trihex.planners.memory import GIB, available_memory
+from trihex.planners.memory import GIB, limit_or_default
 from trihex.schemes import NOT_REACHED, NScheme
 
 _BUDGET = 200_000  # nodes looked at in one call of a kernel
@@ -30,7 +30,7 @@ class Reservations:
         scenario = n_scheme.scenario
         self.scenario, self.distance = scenario, n_scheme.distance_of_site
         layout, tessellation = scenario.area.layout, scenario.area.tessellation
-        self._limit = available_memory() * 4 // 5 if memory_limit is None else memory_limit
+        self._limit = limit_or_default(memory_limit)
         offset, back = layout.offset_of_direction, layout.back_of_direction
         self._forbids = scenario.crossing == "forbid" and tessellation.edge_count < tessellation.direction_count
         first_vertex_move = tessellation.edge_count if self._forbids else tessellation.direction_count
