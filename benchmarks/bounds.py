@@ -13,7 +13,7 @@ import numpy as np
 import trihex as th
 from benchmarks.measure import machine
 from trihex.errors import TooLargeError
-from trihex.schemes import NOT_REACHED
+from trihex.kernels.codes import NOT_REACHED
 
 MAPS = {"den312d": (500,), "room-64-64-8": (500,), "ost003d": (1000,), "Berlin_1_256": (1000, 3000)}
 BOUNDS = {"distance": th.distance_bound, "slot": th.slot_bound, "cut": th.cut_bound}

@@ -12,7 +12,7 @@ import numpy as np
 
 import trihex as th
 from benchmarks.measure import cpu_seconds, exponent, machine
-from trihex.schemes import NOT_REACHED
+from trihex.kernels.codes import NOT_REACHED
 
 AREAS = {"random": th.make_random_area, "rooms": th.make_rooms_area, "maze": th.make_maze_area}
 TESSELLATIONS = ("square", "hexagonal", "triangular")

@@ -14,7 +14,7 @@ import numpy as np
 
 import trihex as th
 from benchmarks.measure import machine
-from trihex.schemes import NOT_REACHED
+from trihex.kernels.codes import NOT_REACHED
 
 # Robots on hexagons and on triangles.
 ROBOTS = {

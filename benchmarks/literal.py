@@ -9,7 +9,7 @@ import numpy as np
 from numba import njit
 
 import trihex as th
-from trihex.schemes import NOT_REACHED
+from trihex.kernels.codes import NOT_REACHED
 
 
 class LiteralRun(NamedTuple):

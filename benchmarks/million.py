@@ -15,7 +15,7 @@ import numpy as np
 
 import trihex as th
 from benchmarks.measure import machine
-from trihex.schemes import NOT_REACHED
+from trihex.kernels.codes import NOT_REACHED
 
 
 def run(words: list[str], folder: Path) -> None:

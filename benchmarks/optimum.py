@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 import trihex as th
 from benchmarks.bounds import scenario_on
 from benchmarks.measure import machine
-from trihex.planners.network import make_network
+from trihex.optimum import make_network
 
 CASES = (
     ("hexagonal", "random-64-64-20", 1000),

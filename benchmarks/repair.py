@@ -12,8 +12,8 @@ import numpy as np
 
 import trihex as th
 from benchmarks.measure import cpu_seconds, machine
-from trihex.living import LivingField
-from trihex.schemes import NOT_REACHED
+from trihex.fields import LivingField
+from trihex.kernels.codes import NOT_REACHED
 
 TESSELLATIONS = ("square", "hexagonal", "triangular")
 AREAS = {"random": th.make_random_area, "rooms": th.make_rooms_area}

@@ -84,7 +84,7 @@ def compare_executors(folder: Path) -> bytes:
         pool.submit(int).result()
         measure("concurrent.futures, 2 processes", pool, cpu_of_all)
     with dask_cluster() as cluster:
-        from trihex.studies.cluster import connected
+        from trihex.studies import connected
 
         with connected(cluster.scheduler_address) as workers:
             measure("Dask, 2 processes", workers, cpu_of_all)
@@ -161,7 +161,7 @@ def compare_kills(folder: Path, reference: bytes) -> None:
             print(f"{name}: {kills} killed: {'same table' if same else 'ANOTHER TABLE'}", flush=True)
         total += kills
     kills = 0
-    from trihex.studies.cluster import connected
+    from trihex.studies import connected
 
     while total + kills < KILLS:
         with dask_cluster() as cluster, connected(cluster.scheduler_address) as workers:

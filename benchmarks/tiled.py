@@ -16,14 +16,14 @@ import numpy as np
 
 import trihex as th
 from benchmarks.measure import machine
-from trihex.schemes import NOT_REACHED
+from trihex.kernels.codes import NOT_REACHED
 
 WORK = """
 import json, resource, sys, time
 sys.path[:] = json.loads(sys.argv[2])
 arguments = json.loads(sys.argv[1])
 import numpy as np, trihex as th
-from trihex.tiled import make_tiled_field
+from trihex.fields.tiled import make_tiled_field
 th.make_n_scheme(th.Scenario(th.Area("hexagonal", [[0, 0]]), [0]))  # kernels are loaded
 begin = time.process_time()
 if arguments["tiled"]:

@@ -10,9 +10,8 @@ import numpy as np
 
 import trihex as th
 from benchmarks.measure import machine
-from trihex.run_report import make_run_report
-from trihex.schemes import NOT_REACHED
-from trihex.trial import Trial
+from trihex.kernels.codes import NOT_REACHED
+from trihex.running import Trial, make_run_report
 
 DESTINATION = (118, 120)
 

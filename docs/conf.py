@@ -1,6 +1,7 @@
 """Configuration of the documentation: sphinx with MyST (Markdown), furo, and the API from the docstrings."""
 
 import sys
+from importlib import import_module
 from pathlib import Path
 
 import click
@@ -15,6 +16,7 @@ import trihex  # noqa: E402
 from trihex.cli import main as command_line  # noqa: E402
 from trihex.planners import PLANNERS  # noqa: E402
 
+PUBLIC = set(trihex.__all__)
 project = "trihex"
 author = "The trihex developers"
 copyright = "The trihex developers"
@@ -42,7 +44,7 @@ nitpicky = False
 
 
 class PublicNames(SphinxDirective):
-    """The public names of the modules named, classes first, each from its docstring."""
+    """The public names of the packages named, classes first, each from its docstring."""
 
     required_arguments = 1
     final_argument_whitespace = True
@@ -51,9 +53,9 @@ class PublicNames(SphinxDirective):
         """Return the nodes of the names."""
         lines = []
         for module in self.arguments[0].split():
-            names = [name for name, home in trihex._MODULE_OF_NAME.items() if home == module]
+            names = [name for name in dir(import_module(f"trihex.{module}")) if name in PUBLIC]
             if not names:
-                raise self.error(f"module {module!r} has no public names")
+                raise self.error(f"package {module!r} has no public names")
             for name in sorted(names, key=lambda name: (not name[0].isupper(), name)):
                 lines += [*_directive_of(f"trihex.{module}.{name}", getattr(trihex, name)), ""]
         return self.parse_text_to_nodes(StringList(lines, source=self.env.docname))

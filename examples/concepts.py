@@ -6,9 +6,9 @@ import numpy as np
 from examples.drawing import bare, folder_from_arguments, save, side_by_side
 
 import trihex as th
-from trihex.palette import MOVING, WAITING
+from trihex.pictures.palette import MOVING, WAITING
+from trihex.pictures.scene import Discs, Lines, Texts, centres_of
 from trihex.planners import make_plan
-from trihex.scene import Discs, Lines, Texts, centres_of
 
 ROOM = [
     "a...B......",

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 
 import trihex as th
-from trihex.palette import BARRIER, FREE, INK, PAGE, Colour
-from trihex.scene import Mark, Scene, Texts, ink_on
+from trihex.pictures.palette import BARRIER, FREE, INK, PAGE, Colour
+from trihex.pictures.scene import Mark, Scene, Texts, ink_on
 
 FIGURES = Path(__file__).parent.parent / "docs" / "figures"
 

@@ -4,7 +4,8 @@ import sys
 from pathlib import Path
 
 import trihex as th
-from trihex.plan import WAIT, plan_from_lists
+from trihex.kernels.codes import WAIT
+from trihex.plans import plan_from_lists
 
 folder = Path(sys.argv[1] if len(sys.argv) > 1 else ".")
 N, E, S, W, NE, SE, SW, NW = range(8)

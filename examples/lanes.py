@@ -7,7 +7,7 @@ import numpy as np
 from examples.drawing import bare, labelled, save, side_by_side
 
 import trihex as th
-from trihex.palette import SERIES
+from trihex.pictures.palette import SERIES
 from trihex.planners.lanes import make_lanes
 
 folder = Path(sys.argv[1] if len(sys.argv) > 1 else ".")

@@ -4,7 +4,7 @@ import sys
 from pathlib import Path
 
 import trihex as th
-from trihex.comparison import on_tessellations
+from trihex.studies import on_tessellations
 
 folder = Path(sys.argv[1] if len(sys.argv) > 1 else ".")
 area = th.make_random_area("hexagonal", 20, 24, density=0.15, seed=1)

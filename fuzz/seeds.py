@@ -10,9 +10,9 @@ import numpy as np
 from PIL import Image
 
 from trihex import Area, Frame, Scenario, Tessellation, Trial, write_area, write_plan, write_run, write_scenario
-from trihex.events import Event
-from trihex.formats.draft import draft_of
-from trihex.plan import plan_from_lists
+from trihex.formats import draft_of
+from trihex.plans import plan_from_lists
+from trihex.running import Event
 from trihex.viewer.bundle import encode
 from trihex.viewer.document import document_of
 

@@ -27,11 +27,9 @@ from trihex import (
     write_plan,
     write_run,
 )
-from trihex.formats import read_draft
-from trihex.formats.draft import Draft
-from trihex.formats.events import read_events
-from trihex.plan import Plan
-from trihex.studies.study import read_study
+from trihex.formats import Draft, read_draft, read_events
+from trihex.plans import Plan
+from trihex.studies import read_study
 from trihex.viewer.bundle import decode
 from trihex.viewer.desk import Desk
 

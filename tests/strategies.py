@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import strategies as st
 
 import trihex as th
-from trihex.scenario import CORNERS, CROSSINGS
+from trihex.areas import CORNERS, CROSSINGS
 
 SHAPES = [("triangular", "full"), ("triangular", "edge"), ("hexagonal", "full"), ("square", "full"), ("square", "edge")]
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import trihex as th
-from trihex.generators import GENERATORS
+from trihex.areas import GENERATORS
 from trihex.planners import make_plan
 
 FILE = Path(__file__).parent / "golden" / "optimal.json"

@@ -1,7 +1,8 @@
 """The distance rule of the paper on hexagons: each generation, up to the N-scheme (its Figures 7 and 9)."""
 
 import trihex as th
-from trihex.automaton import NOT_REACHED, OBSTACLE
+from trihex.fields import OBSTACLE
+from trihex.kernels.codes import NOT_REACHED
 
 AREA = [".......", ".BBBB..", ".B..B..", ".B.B...", "......."]
 DESTINATION = (2, 2)

@@ -11,8 +11,9 @@ from examples.drawing import folder_from_arguments, labelled, save, side_by_side
 from examples.paper.configurations import scenario_from
 
 import trihex as th
-from trihex.automaton import NOT_REACHED, OBSTACLE
-from trihex.palette import DESTINATION
+from trihex.fields import OBSTACLE
+from trihex.kernels.codes import NOT_REACHED
+from trihex.pictures.palette import DESTINATION
 
 Term = tuple[int, int, int]
 Terms = tuple[Term, ...]

@@ -3,7 +3,7 @@
 from examples.drawing import folder_from_arguments, labelled, save, side_by_side
 
 import trihex as th
-from trihex.palette import MOVING
+from trihex.pictures.palette import MOVING
 
 EDGE, VERTEX = (199, 233, 180), (255, 236, 170)
 

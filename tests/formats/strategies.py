@@ -3,11 +3,9 @@
 import numpy as np
 from hypothesis import strategies as st
 
-from trihex.area import Area
-from trihex.frame import Frame
-from trihex.plan import WAIT, Plan, plan_from_lists
-from trihex.scenario import CORNERS, CROSSINGS, Scenario
-from trihex.tessellation import COSTS, NEIGHBOURHOODS, TESSELLATIONS, Tessellation
+from trihex.areas import CORNERS, COSTS, CROSSINGS, NEIGHBOURHOODS, TESSELLATIONS, Area, Frame, Scenario, Tessellation
+from trihex.kernels.codes import WAIT
+from trihex.plans import Plan, plan_from_lists
 
 NAMES = st.text(st.characters(codec="utf-8", exclude_categories=["Cs"]), max_size=8)
 

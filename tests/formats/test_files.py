@@ -6,7 +6,7 @@ import threading
 import pytest
 
 from trihex import FormatError, read_area
-from trihex.formats.files import check_output, new_file, read_bytes, suffix_of
+from trihex.files import check_output, new_file, read_bytes, suffix_of
 
 
 def test_a_file_is_new_only_when_it_is_whole(tmp_path):

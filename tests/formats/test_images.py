@@ -11,7 +11,7 @@ from PIL import Image
 
 from tests.formats.strategies import areas
 from trihex import Area, FormatError, read_area, write_area
-from trihex.frame import Frame
+from trihex.areas import Frame
 
 
 @pytest.fixture(scope="module")

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from tests.formats.strategies import walks
 from trihex import Area, FormatError, Plan, Scenario
 from trihex.formats import read_plan, write_plan
-from trihex.plan import plan_from_lists
+from trihex.plans import plan_from_lists
 
 COLUMNS = ["robot", "step", "x", "y", "action", "time"]
 

@@ -11,9 +11,10 @@ from hypothesis import strategies as st
 
 from tests.formats.strategies import FRAMES, NAMES, walks
 from trihex import Area, FormatError, Plan, Scenario, Tessellation, read_plan, read_scenario, write_plan, write_scenario
-from trihex.formats.plan_npz import write_plan_npz
-from trihex.frame import Frame
-from trihex.plan import JUMP, WAIT, plan_from_lists
+from trihex.areas import Frame
+from trihex.formats.plans.npz import write_plan_npz
+from trihex.kernels.codes import JUMP, WAIT
+from trihex.plans import plan_from_lists
 
 HEADER = "robot,step,x,y,action,time"
 
@@ -213,7 +214,7 @@ def test_damaged_npz(tmp_path, entries):
 
 
 def test_a_bomb_is_refused_before_it_is_unpacked(tmp_path, entries, monkeypatch):
-    monkeypatch.setattr("trihex.formats.plan_npz.MAX_UNPACKED", 2**20)
+    monkeypatch.setattr("trihex.formats.plans.npz.MAX_UNPACKED", 2**20)
     entries["barriers"] = np.zeros((1025, 1024), dtype=bool)
     np.savez_compressed(tmp_path / "bomb.npz", **entries)
     with pytest.raises(FormatError, match="must unpack to at most 1048576 bytes"):

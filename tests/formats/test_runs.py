@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 
 import trihex as th
-from tests.random_runs import random_events, random_trial
+from tests.running.random_runs import random_events, random_trial
 from tests.strategies import random_scenario
-from trihex.events import Event
-from trihex.trial import resume_trial
+from trihex.running import Event, resume_trial
 
 
 def test_runs_come_back_whole_and_with_the_same_bytes(tmp_path):

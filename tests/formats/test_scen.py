@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from trihex import Area, AreaError, FormatError, ScenarioError
+from trihex.areas import Frame
 from trihex.formats import read_area, read_starts
-from trihex.frame import Frame
 
 AREA = Area("hexagonal", np.zeros((3, 5)))
 GOOD = "version 1\n4\tx.map\t5\t3\t4\t2\t0\t0\t4.0\n"

@@ -5,7 +5,7 @@ import pytest
 from PIL import Image
 
 from trihex import FormatError, Tessellation, read_area, read_scenario
-from trihex.frame import Frame
+from trihex.areas import Frame
 
 TOML = """
 destinations_in_metres = [[2.2, 2.2]]

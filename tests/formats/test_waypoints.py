@@ -15,9 +15,10 @@ from hypothesis import strategies as st
 
 from tests.formats.strategies import walks
 from trihex import Area, AreaError, FormatError, Scenario
+from trihex.areas import Frame
 from trihex.formats import write_plan, write_waypoints
-from trihex.frame import Frame
-from trihex.plan import WAIT, Plan, plan_from_lists
+from trihex.kernels.codes import WAIT
+from trihex.plans import Plan, plan_from_lists
 
 FRAMES = st.builds(Frame, st.floats(0.1, 10), st.tuples(st.floats(-100, 100), st.floats(-100, 100)), st.floats(-pi, pi))
 

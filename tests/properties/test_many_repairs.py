@@ -11,7 +11,7 @@ import pytest
 
 import trihex as th
 from tests.strategies import random_scenario
-from trihex.living import LivingField
+from trihex.fields import LivingField
 
 COUNT = int(os.environ.get("TRIHEX_REPAIRS", "400"))
 SHARES, CHANGES = 4, 20

@@ -8,10 +8,8 @@ import os
 import numpy as np
 import pytest
 
-from tests.random_runs import random_trial
-from trihex.run import GOING
-from trihex.run_audit import audit_run
-from trihex.trial import resume_trial
+from tests.running.random_runs import random_trial
+from trihex.running import GOING, audit_run, resume_trial
 
 COUNT = int(os.environ.get("TRIHEX_RUNS", "300"))
 SHARES, MOST_STEPS = 4, 5000

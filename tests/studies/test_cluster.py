@@ -10,8 +10,7 @@ from click.testing import CliRunner
 
 import trihex as th
 from trihex.cli import main
-from trihex.studies import cluster
-from trihex.studies.cluster import connected
+from trihex.studies import cluster, connected
 from trihex.studies.study import make_study
 
 AREA = {"generator": "random", "size": [12, 9], "density": 0.1}

@@ -3,11 +3,11 @@
 import pytest
 
 import trihex as th
-from trihex.formats.draft import Draft
+from trihex.formats import Draft
+from trihex.studies.case import run_trial
 from trihex.studies.grid import Grid
 from trihex.studies.placing import place_destinations, place_robots
 from trihex.studies.study import make_study
-from trihex.studies.trial import run_trial
 
 SMALL = """
 seeds = 2

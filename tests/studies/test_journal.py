@@ -14,9 +14,10 @@ from click.testing import CliRunner
 
 import trihex as th
 from trihex.cli import main
+from trihex.studies import dispatch as run
 from trihex.studies import journal as journal_module
-from trihex.studies import run, worker
-from trihex.studies.journal import Journal, journal_of
+from trihex.studies import journal_of, worker
+from trihex.studies.journal import Journal
 
 STUDY = """
 seeds = 10

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 import trihex as th
-from trihex.studies.trial import COLUMNS
+from trihex.studies.case import COLUMNS
 
 ROOT = Path(__file__).parents[2]
 NAMES = ("tessellations", "planner", "unknown")

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 import trihex as th
-from trihex.passing import make_passing_order
-from trihex.trial import Trial
+from trihex.running import Trial, make_passing_order
 
 AREA = {"generator": "rooms", "size": [30, 24], "room": 5}
 STUDY = """

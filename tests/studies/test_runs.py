@@ -8,9 +8,9 @@ from concurrent.futures import BrokenExecutor, Future, ProcessPoolExecutor, Thre
 import pytest
 
 import trihex as th
-from trihex.studies import worker
-from trihex.studies.study import Study, make_study
-from trihex.studies.trial import COLUMNS, hash_of_scenario, versions
+from trihex.studies import Study, worker
+from trihex.studies.case import COLUMNS, hash_of_scenario, versions
+from trihex.studies.study import make_study
 from trihex.studies.worker import Limits, Worker, run_trials
 
 AREA = {"generator": "random", "size": [12, 9], "density": 0.1}
@@ -158,7 +158,7 @@ def test_a_fault_is_a_row(monkeypatch):
     def broken(*_, **__):
         raise ZeroDivisionError("by\nzero")
 
-    monkeypatch.setattr("trihex.studies.trial.audit_plan", broken)
+    monkeypatch.setattr("trihex.studies.case.audit_plan", broken)
     assert th.run_study(RUNS[:1])[0]["error"] == "fault of trihex: ZeroDivisionError: by zero"
 
 
@@ -203,7 +203,7 @@ def test_workers_that_cannot_start_end_the_study(monkeypatch):
 
 
 def test_the_planners_of_one_scenario_share_what_is_made_for_it(monkeypatch):
-    from trihex.studies import trial
+    from trihex.studies import case as trial
 
     made = []
     monkeypatch.setattr(trial, "make_n_scheme", lambda scenario: made.append(1) or th.make_n_scheme(scenario))

@@ -5,7 +5,7 @@ from io import BytesIO
 import numpy as np
 from PIL import Image
 
-from trihex.tessellation import Tessellation
+from trihex.areas import Tessellation
 
 APP = "document.querySelector('#trihex').app"
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 import trihex as th
 from tests.strategies import scenarios
-from trihex.formats.draft import draft_of
+from trihex.formats import draft_of
 from trihex.viewer.bundle import MAGIC, decode, encode
 from trihex.viewer.document import document_of, draft_of_document
 

@@ -12,7 +12,7 @@ from click.testing import CliRunner
 import trihex as th
 from trihex.cli import main
 from trihex.planners import make_plan
-from trihex.viewer.launch import open_viewer
+from trihex.viewer import open_viewer
 
 
 def test_it_tells_an_address_serves_it_and_stops_when_interrupted(tmp_path):

@@ -5,7 +5,7 @@ import pytest
 
 import trihex as th
 from tests.viewer.pages import is_near
-from trihex import palette
+from trihex.pictures import palette
 from trihex.planners import make_plan
 
 

@@ -5,11 +5,9 @@ import pytest
 
 import trihex as th
 from tests.viewer.pages import Shown, is_near
-from trihex import palette
-from trihex.execution import Execution
-from trihex.run import GOING, LATE
-from trihex.run_picture import FOG, FOG_BARRIER
-from trihex.trial import Trial
+from trihex.kernels.codes import LATE
+from trihex.pictures import FOG, FOG_BARRIER, palette
+from trihex.running import GOING, Execution, Trial
 from trihex.viewer.bundle import decode, encode
 from trihex.viewer.desk import Desk
 from trihex.viewer.document import document_of

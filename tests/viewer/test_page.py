@@ -9,8 +9,8 @@ from click.testing import CliRunner
 
 import trihex as th
 from tests.viewer.pages import Shown, is_near
-from trihex import palette
 from trihex.cli import main
+from trihex.pictures import palette
 from trihex.planners import make_plan
 from trihex.viewer import script
 from trihex.viewer.script import module, parts, source_of

@@ -5,7 +5,7 @@ import pytest
 
 import trihex as th
 from tests.viewer.pages import is_near
-from trihex import palette
+from trihex.pictures import palette
 
 HEIGHT, WIDTH, POINTS = 26, 33, 1000
 HIT = """(points) => {

@@ -7,11 +7,11 @@ from hypothesis import given, settings
 
 import trihex as th
 from tests.strategies import random_scenario, scenarios
-from trihex.plan import JUMP, WAIT, Plan, plan_from_lists
+from trihex.kernels.codes import JUMP, WAIT
 from trihex.planners import make_plan
+from trihex.plans import Plan, make_playback, plan_from_lists
 from trihex.viewer.bundle import encode
 from trihex.viewer.desk import Desk
-from trihex.viewer.playback import make_playback
 
 HIDDEN, MOVING, WAITING, FINAL, STRANDED = range(5)  # as in viewer.js
 PLAY = """async ([text, steps]) => {

@@ -9,7 +9,7 @@ import pytest
 
 import trihex as th
 from tests.viewer.pages import Shown, is_near
-from trihex import palette
+from trihex.pictures import palette
 from trihex.planners import make_plan
 
 # What anywidget does in a notebook: hand over a model, carry messages with buffers to Python and back.

@@ -39,9 +39,9 @@ def command(
 
     PLAN is .npz, which holds area and rules itself, or .csv, which needs AREA and the options that it was made with.
     """
-    from trihex.movie import SUFFIXES, write_animation
-    from trihex.viewer.page import SUFFIXES as PAGE_SUFFIXES
-    from trihex.viewer.page import write_page
+    from trihex.pictures import MOVIE_SUFFIXES as SUFFIXES
+    from trihex.pictures import write_animation
+    from trihex.viewer import PAGE_SUFFIXES, write_page
 
     drawn = {
         name: options.pop(name) for name in ("width", "frames_per_second", "max_frames", "title", "clock", "legend")

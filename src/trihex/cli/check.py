@@ -29,8 +29,8 @@ def command(plan: Path, area: Path | None, limit: int, summary: Path | None, **o
 
     Exit status 1: the plan is unsafe.
     """
-    from trihex.audit import audit_plan
     from trihex.cli.texts import conflict_lines, verdict
+    from trihex.judging import audit_plan
 
     check_outputs((summary, (), "a summary"))
     judged = read_judged(plan, area, options)
@@ -48,8 +48,8 @@ def command(plan: Path, area: Path | None, limit: int, summary: Path | None, **o
 
 
 def _summarise(plan: Any, audit: Any, summary: Path) -> None:
-    from trihex.formats.report_json import report_text, write_report
-    from trihex.report import make_report
+    from trihex.formats import report_text, write_report
+    from trihex.judging import make_report
 
     report = make_report(plan, audit=audit)
     if str(summary) == "-":

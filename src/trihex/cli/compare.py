@@ -15,7 +15,7 @@ from trihex.cli.types import Names
 from trihex.errors import AreaError, ScenarioError
 
 if TYPE_CHECKING:
-    from trihex.scenario import Scenario
+    from trihex.areas import Scenario
 
 
 @click.command("compare")
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 )
 @click.option(
     "--tessellations",
-    type=Names("trihex.tessellation", "TESSELLATIONS"),
+    type=Names("trihex.areas.tessellation", "TESSELLATIONS"),
     help="On which tessellations. [default: that of --tessellation, or all]",
 )
 @click.option("--out", type=PATH, metavar="FILE", help="The table as .csv, with all its columns.")
@@ -53,8 +53,8 @@ def command(
 
     Exit status 1: some robots cannot arrive, or a plan is unsafe.
     """
-    from trihex.comparison import make_comparison
-    from trihex.formats.values_csv import write_values
+    from trihex.formats import write_values
+    from trihex.studies import make_comparison
 
     check_outputs((out, (".csv",), "a table"), (picture, (".png", ".svg", ".pdf"), "a chart"))
     scenarios = _scenarios(
@@ -81,10 +81,10 @@ def _scenarios(path: Path, names: tuple[str, ...], options: dict[str, Any]) -> l
 
     Barriers of cells are read as cells of another shape; a place in metres is covered anew by each.
     """
-    from trihex.comparison import on_tessellations
-    from trihex.formats.files import read_bytes
-    from trihex.formats.recognise import format_of
-    from trihex.tessellation import TESSELLATIONS
+    from trihex.areas import TESSELLATIONS
+    from trihex.files import read_bytes
+    from trihex.formats import format_of
+    from trihex.studies import on_tessellations
 
     if options["cell_size"] is None or format_of(read_bytes(path), path) in ("movingai", "letters"):
         scenario = complete(read_described(path, options))
@@ -104,8 +104,8 @@ def _scenarios(path: Path, names: tuple[str, ...], options: dict[str, Any]) -> l
 
 
 def _draw(rows: list[dict[str, Any]], path: Path) -> None:
-    from trihex.formats.files import new_file
-    from trihex.plotting import draw_comparison
+    from trihex.files import new_file
+    from trihex.pictures import draw_comparison
 
     drawn = [{**row, "optimal": row["is_proven"] and row["gap"] == 0} for row in rows if row["gap"] is not None]
     ax = draw_comparison(drawn)

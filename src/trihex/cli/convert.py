@@ -28,9 +28,8 @@ def command(source: Path, target: Path, area: Path | None, waypoints: bool, spee
     that it was made with. Waypoints of a plan: .csv (with --waypoints), .yaml, .json, .geojson, .sqlite. Areas: .map,
     .txt, images and .toml. Scenarios: .toml and .txt. Starts: .csv. What a format cannot carry is refused.
     """
-    from trihex.formats import PLAN_SUFFIXES, WAYPOINT_SUFFIXES, write_plan, write_waypoints
-    from trihex.formats.files import read_bytes
-    from trihex.formats.recognise import format_of
+    from trihex.files import read_bytes
+    from trihex.formats import PLAN_SUFFIXES, WAYPOINT_SUFFIXES, format_of, write_plan, write_waypoints
 
     form = format_of(read_bytes(source), source)
     if form in ("starts", "scen"):
@@ -68,7 +67,7 @@ def _convert_starts(source: Path, target: Path, area: Path | None, options: dict
 
 def _convert_area(source: Path, target: Path, options: dict[str, Any]) -> None:
     from trihex.formats import AREA_SUFFIXES, SCENARIO_SUFFIXES, write_area, write_scenario
-    from trihex.formats.letters import lost_in_letters
+    from trihex.formats.areas.letters import lost_in_letters
 
     draft = read_described(source, options)
     is_area = draft.destinations is None and draft.robots is None and draft.random_count is None

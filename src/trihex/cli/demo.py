@@ -1,14 +1,94 @@
-"""`trihex demo`: all planners on the three tessellations, to see at a glance what there is."""
+"""`trihex demo`: a cave, its robots, and what all planners make of it on the three tessellations."""
 
 from __future__ import annotations
 
+import os
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import click
 
+from trihex.areas import TESSELLATIONS, Scenario, make_caves_area, random_robots
 from trihex.cli.group import DONE, NO
 from trihex.cli.options import PATH
 from trihex.cli.progress import bar
+from trihex.fields import make_n_scheme
+from trihex.formats import write_values
+from trihex.pictures import picture_of_n_scheme, picture_of_plan, write_animation
+from trihex.planners import PLANNERS
+from trihex.record import Record
+from trihex.studies import Comparison, make_comparison, on_tessellations
+
+Progress = Callable[[str, int, int], None]
+# Which plan is drawn, if the planner is there.
+SHOWN_PLANNER, SHOWN_TESSELLATION = "fcost", "hexagonal"
+
+
+@dataclass(frozen=True, eq=False)
+class Demo(Record):
+    """What the demo did.
+
+    Parameters
+    ----------
+    comparison : Comparison
+    files : tuple of Path
+        What it wrote.
+    """
+
+    comparison: Comparison
+    files: tuple[Path, ...]
+
+
+def make_demo_scenario() -> Scenario:
+    """Make the scenario of the demo: a cave that 240 robots leave by two exits.
+
+    Examples
+    --------
+    >>> scenario = make_demo_scenario()
+    >>> scenario.robot_count, scenario.destinations.size, scenario.area.free_count
+    (240, 2, 1716)
+    """
+    area = replace(make_caves_area("hexagonal", 40, 64, density=0.44, seed=15), name="cave")
+    exits = area.xy_to_cell([0, 63], [20, 24])
+    return Scenario(area, exits, random_robots(area, 240, seed=1, avoid=exits), seed=1)
+
+
+def run_demo(
+    folder: str | os.PathLike[str], planners: Iterable[str] = tuple(PLANNERS), *, progress: Progress | None = None
+) -> Demo:
+    """Compare planners on the three tessellations, and write a table, pictures and a movie into `folder`.
+
+    Parameters
+    ----------
+    folder : path
+        Made if it is not there.
+    planners : iterable of str
+        Default: all.
+    progress : callable, optional
+        Called with (what is done, done, total).
+    """
+
+    def tell(what: str) -> Callable[[int, int], None]:
+        return lambda done, total: progress(what, done, total) if progress else None
+
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    scenarios = on_tessellations(make_demo_scenario(), TESSELLATIONS)
+    comparison = make_comparison(scenarios, planners, progress=tell("planning"))
+    files = [folder / "table.csv"]
+    write_values(comparison.rows(), files[0])
+    reports = {(entry.planner, entry.scenario.area.tessellation.name): entry.report for entry in comparison.entries}
+    planner = SHOWN_PLANNER if (SHOWN_PLANNER, SHOWN_TESSELLATION) in reports else comparison.entries[0].planner
+    for name in TESSELLATIONS:
+        if report := reports[planner, name]:
+            files.append(folder / f"plan-{name}.png")
+            picture_of_plan(report.plan).save(files[-1])
+    if report := reports[planner, SHOWN_TESSELLATION]:
+        files += [folder / "n-scheme.png", folder / "plan.gif"]
+        picture_of_n_scheme(make_n_scheme(report.plan.scenario)).save(files[-2])
+        write_animation(report.plan, files[-1], progress=tell("drawing"))
+    return Demo(comparison, tuple(files))
 
 
 @click.command("demo")
@@ -16,7 +96,6 @@ from trihex.cli.progress import bar
 def command(out: Path) -> int:
     """Plan with every planner on the three tessellations; print a table, leave pictures and an animation."""
     from trihex.cli.texts import comparison_lines
-    from trihex.demo import run_demo
 
     with bar("planning and drawing", "parts") as progress:
         demo = run_demo(out, progress=lambda _, done, total: progress(done, total))

@@ -61,9 +61,11 @@ def command(
         raise wrong_use(f"--{given[0]} is for areas in .npy or .zarr")
     import numpy as np
 
-    from trihex.formats.field_npy import write_field
-    from trihex.picture import SUFFIXES, picture_of_d_scheme, picture_of_n_scheme
-    from trihex.schemes import NOT_REACHED, make_d_scheme, make_n_scheme
+    from trihex.fields import make_d_scheme, make_n_scheme
+    from trihex.formats import write_field
+    from trihex.kernels.codes import NOT_REACHED
+    from trihex.pictures import PICTURE_SUFFIXES as SUFFIXES
+    from trihex.pictures import picture_of_d_scheme, picture_of_n_scheme
 
     check_outputs(
         (out, (".npy",), "an N-scheme"),
@@ -96,9 +98,9 @@ def _draw_generations(scenario: Any, folder: Path) -> int:
     """Draw each generation; return how many there are."""
     import numpy as np
 
-    from trihex.automaton import OBSTACLE, distance_generations
-    from trihex.picture import picture_of_n_scheme
-    from trihex.schemes import NOT_REACHED, NScheme
+    from trihex.fields import OBSTACLE, NScheme, distance_generations
+    from trihex.kernels.codes import NOT_REACHED
+    from trihex.pictures import picture_of_n_scheme
 
     layout = scenario.area.layout
     sites = layout.cell_to_site(np.arange(scenario.area.cell_count))

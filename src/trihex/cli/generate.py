@@ -13,11 +13,11 @@ from trihex.cli.types import Name, Pair, Share, Whole
 
 
 @click.command("generate")
-@click.argument("kind", type=Name("trihex.generators", "GENERATORS"))
+@click.argument("kind", type=Name("trihex.areas.generators", "GENERATORS"))
 @click.option("--size", type=Pair("WIDTH,HEIGHT"), required=True, help="Width and height in cells.")
 @click.option(
     "--tessellation",
-    type=Name("trihex.tessellation", "TESSELLATIONS"),
+    type=Name("trihex.areas.tessellation", "TESSELLATIONS"),
     default="hexagonal",
     help="What shape of cells the area is made for. [default: hexagonal]",
 )
@@ -47,9 +47,10 @@ def command(
     """
     from inspect import signature
 
+    from trihex.areas import GENERATORS
     from trihex.formats import AREA_SUFFIXES, write_area
-    from trihex.generators import GENERATORS
-    from trihex.picture import SUFFIXES, picture_of_area
+    from trihex.pictures import PICTURE_SUFFIXES as SUFFIXES
+    from trihex.pictures import picture_of_area
 
     check_outputs((out, AREA_SUFFIXES, "an area"), (picture, SUFFIXES, "a picture"))
     given = {name: value for name, value in options.items() if value is not None}

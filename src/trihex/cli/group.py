@@ -15,8 +15,8 @@ from typing import Any, NoReturn
 
 import click
 
-from trihex import kernels
 from trihex.errors import TrihexError
+from trihex.kernels import loading
 
 # Exit statuses. A command returns DONE (or None) or NO; the others are given here.
 DONE = 0
@@ -68,7 +68,7 @@ class Commands(click.Group):
     def main(self, args: Sequence[str] | None = None, prog_name: str | None = None, *_: Any, **extra: Any) -> NoReturn:
         """Run the command that `args` name, and exit with its status."""
         status: int = FAULT
-        kernels.is_alone = True
+        loading.is_alone = True
         if threading.current_thread() is threading.main_thread():
             # As for Ctrl-C, what is half-written is removed.
             signal.signal(signal.SIGTERM, lambda *_: sys.exit(TERMINATED))

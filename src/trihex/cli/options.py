@@ -12,10 +12,9 @@ from trihex.cli.progress import bar
 from trihex.cli.types import Metres, Name, Place, Share, Whole
 
 if TYPE_CHECKING:
-    from trihex.area import Area
-    from trihex.formats.draft import Draft
-    from trihex.plan import Plan
-    from trihex.scenario import Scenario
+    from trihex.areas import Area, Scenario
+    from trihex.formats import Draft
+    from trihex.plans import Plan
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 PATH = click.Path(path_type=Path)
@@ -36,20 +35,22 @@ def area_options(command: Command) -> Command:
         ),
         click.option(
             "--unknown",
-            type=Name("trihex.formats.options", "UNKNOWNS"),
+            type=Name("trihex.formats.areas.options", "UNKNOWNS"),
             help="ROS maps: what unknown ground is. [default: barrier]",
         ),
         click.option("--robot-radius", type=Metres(), help="In metres: robots touch neither walls nor each other."),
         click.option("--cell-size", type=Metres(), help="Edge step in metres."),
-        click.option("--costs", type=Name("trihex.tessellation", "COSTS"), help="Costs of moves. [default: paper]"),
+        click.option(
+            "--costs", type=Name("trihex.areas.tessellation", "COSTS"), help="Costs of moves. [default: paper]"
+        ),
         click.option(
             "--neighbourhood",
-            type=Name("trihex.tessellation", "NEIGHBOURHOODS"),
+            type=Name("trihex.areas.tessellation", "NEIGHBOURHOODS"),
             help="All neighbours, or only those that share an edge. [default: full]",
         ),
         click.option(
             "--tessellation",
-            type=Name("trihex.tessellation", "TESSELLATIONS"),
+            type=Name("trihex.areas.tessellation", "TESSELLATIONS"),
             help="Shape of the cells. [default: hexagonal]",
         ),
     ):
@@ -67,12 +68,12 @@ def rule_options(command: Command) -> Command:
         ),
         click.option(
             "--crossing",
-            type=Name("trihex.scenario", "CROSSINGS"),
+            type=Name("trihex.areas.scenario", "CROSSINGS"),
             help="Whether two robots may pass one lattice vertex in one step. [default: forbid]",
         ),
         click.option(
             "--corners",
-            type=Name("trihex.scenario", "CORNERS"),
+            type=Name("trihex.areas.scenario", "CORNERS"),
             help="When a robot may pass a vertex beside barriers. [default: allow]",
         ),
         click.option("--waiting-cost", type=Whole(0), help="Cost of waiting one step. [default: that of an edge]"),
@@ -123,11 +124,10 @@ def _changed(draft: Draft, options: dict[str, Any]) -> Draft:
     """Return the draft with what the options say in place of what it says."""
     from dataclasses import replace
 
-    from trihex.area import cells_from
+    from trihex.areas import cells_from
     from trihex.errors import ScenarioError
-    from trihex.formats import read_starts
-    from trihex.formats.files import read_bytes
-    from trihex.formats.recognise import format_of
+    from trihex.files import read_bytes
+    from trihex.formats import format_of, read_starts
 
     rules = ("waiting_cost", "crossing", "corners", "destination_capacity")
     changes: dict[str, Any] = {name: options[name] for name in rules if options.get(name) is not None}
@@ -176,10 +176,8 @@ def read_judged(path: Path, area: Path | None, options: dict[str, Any]) -> Plan:
     """Return the plan at `path`; what `area` and the options say comes before what it says itself."""
     from dataclasses import replace
 
-    from trihex.formats import read_draft, read_plan
-    from trihex.formats.draft import draft_of
-    from trihex.formats.files import read_bytes
-    from trihex.formats.recognise import NAME_OF_FORMAT, format_of
+    from trihex.files import read_bytes
+    from trihex.formats import NAME_OF_FORMAT, draft_of, format_of, read_draft, read_plan
 
     form = format_of(read_bytes(path), path)
     if form != "npz":

@@ -10,7 +10,7 @@ from trihex.cli.options import wrong_use
 
 def check_outputs(*outputs: tuple[Path | None, Iterable[str], str]) -> None:
     """Raise unless each (path, suffixes, kind of file) that is given can be written; no suffixes: any will do."""
-    from trihex.formats.files import check_output, suffix_of
+    from trihex.files import check_output, suffix_of
 
     seen: set[Path] = set()
     for path, suffixes, kind in outputs:

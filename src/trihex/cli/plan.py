@@ -71,7 +71,7 @@ def command(
         with bar("writing", "parts") as progress:
             write_plan(report.plan, outputs["plan"], progress=progress)
     if "picture" in outputs:
-        from trihex.picture import picture_of_plan
+        from trihex.pictures import picture_of_plan
 
         picture_of_plan(report.plan, ground=draft.ground, crop=draft.ground is not None).save(outputs["picture"])
     if "waypoints" in outputs:
@@ -87,7 +87,7 @@ def _check_outputs(outputs: dict[str, Any], write_scenario: Path | None) -> None
     from trihex.formats import PLAN_SUFFIXES, WAYPOINT_SUFFIXES
 
     if outputs.get("picture"):  # what draws is imported only for who draws
-        from trihex.picture import SUFFIXES
+        from trihex.pictures import PICTURE_SUFFIXES as SUFFIXES
 
         check_outputs((outputs["picture"], SUFFIXES, "a picture"))
     check_outputs(
@@ -101,11 +101,10 @@ def _check_outputs(outputs: dict[str, Any], write_scenario: Path | None) -> None
 
 def _reported(scenario: Any, planner: str, planner_options: dict[str, Any], seconds: dict[str, float]) -> Any:
     """Plan, judge and report; add to `seconds` how long each part took."""
-    from trihex.audit import audit_plan
     from trihex.bounds import make_lower_bound
+    from trihex.fields import make_n_scheme
+    from trihex.judging import audit_plan, make_report
     from trihex.planners import make_plan
-    from trihex.report import make_report
-    from trihex.schemes import make_n_scheme
 
     begin = perf_counter()
     n_scheme = make_n_scheme(scenario)
@@ -155,7 +154,7 @@ def _check_options(planner: str, planner_options: dict[str, Any]) -> None:
 def _told(report: Any, summary: Path | None) -> int:
     """Print the report, tell what is amiss, and return the exit status."""
     from trihex.cli.texts import conflict_lines, report_lines, stranded_line
-    from trihex.formats.report_json import report_text, write_report
+    from trihex.formats import report_text, write_report
 
     if summary and str(summary) != "-":
         write_report(report, summary)

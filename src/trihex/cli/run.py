@@ -57,9 +57,8 @@ def command(
 
     Exit status 1: some robots are cut off, or an event was refused. The others arrive and all outputs are written.
     """
-    from trihex.formats.events import read_events
-    from trihex.formats.run_npz import write_run
-    from trihex.run_report import make_run_report
+    from trihex.formats import read_events, write_run
+    from trihex.running import make_run_report
 
     _check(out, summary, picture, animation)
     if line_of_sight and sense is None:
@@ -98,8 +97,8 @@ def command(
 
 
 def _check(out: Path | None, summary: Path | None, picture: Path | None, animation: Path | None) -> None:
-    from trihex.movie import SUFFIXES as MOVIE_SUFFIXES
-    from trihex.picture import SUFFIXES
+    from trihex.pictures import MOVIE_SUFFIXES
+    from trihex.pictures import PICTURE_SUFFIXES as SUFFIXES
 
     check_outputs(
         (out, (".npz",), "a run"),
@@ -119,8 +118,7 @@ def _begun(
     options: dict[str, Any],
     **plans: Any,
 ) -> Any:
-    from trihex.sensing import Sensor
-    from trihex.trial import Trial
+    from trihex.running import Sensor, Trial
 
     draft = read_described(area, options)
     scenario = complete(draft)
@@ -132,16 +130,16 @@ def _begun(
 
 def _followed(path: Path, delay: float, seed: int, most_steps: int) -> tuple[Any, Any]:
     """Return the run of robots that keep to the order of a plan, and the plan."""
-    from trihex.formats.plan_npz import read_plan_npz
-    from trihex.passing import make_passing_order
+    from trihex.formats.plans.npz import read_plan_npz
+    from trihex.running import make_passing_order
 
     plan = read_plan_npz(path)
     return make_passing_order(plan).run(delay=delay, seed=seed, most_steps=most_steps), plan
 
 
 def _resumed(path: Path, events: Any, delays: float | None, **plans: Any) -> Any:
-    from trihex.formats.run_npz import read_run
-    from trihex.trial import resume_trial
+    from trihex.formats import read_run
+    from trihex.running import resume_trial
 
     if delays is not None:
         raise wrong_use("--resume says all itself, so --delays cannot be told")
@@ -153,8 +151,7 @@ def _resumed(path: Path, events: Any, delays: float | None, **plans: Any) -> Any
 
 
 def _draw(run: Any, picture: Path | None, animation: Path | None) -> None:
-    from trihex.run_movie import write_run_animation
-    from trihex.run_picture import picture_of_run
+    from trihex.pictures import picture_of_run, write_run_animation
 
     if picture is not None:
         picture_of_run(run).save(picture)
@@ -167,7 +164,7 @@ def _told(report: Any, summary: Path | None, *, is_over: bool) -> int:
     """Print the report, tell what is amiss, and return the exit status."""
     from json import dumps
 
-    from trihex.formats.files import new_file
+    from trihex.files import new_file
 
     numbers = report.as_dict()
     text = dumps(numbers, indent=2, ensure_ascii=False, allow_nan=False) + "\n"

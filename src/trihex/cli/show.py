@@ -11,7 +11,7 @@ from trihex.cli.options import PATH, area_options, read_described
 from trihex.cli.types import Whole
 
 if TYPE_CHECKING:
-    from trihex.area import Area
+    from trihex.areas import Area
 
 _MOST_REGIONS = 5
 
@@ -26,7 +26,7 @@ def command(area: Path, columns: int, **options: Any) -> None:
     In the drawing, D is a destination and o a robot of the file; of the cells that another letter stands for, none
     (.), less than half (:), half and more (+) or all (#) are barriers.
     """
-    from trihex.preview import preview_lines
+    from trihex.pictures import preview_lines
 
     draft = read_described(area, options)
     click.echo("\n".join(_told(draft.area)))
@@ -38,7 +38,7 @@ def command(area: Path, columns: int, **options: Any) -> None:
 
 
 def _told(area: Area) -> list[str]:
-    from trihex.regions import make_regions
+    from trihex.areas import make_regions
 
     tessellation, sizes = area.tessellation, make_regions(area).size_of_region.tolist()
     share = 100 * area.free_count / area.cell_count

@@ -34,11 +34,8 @@ def command(study: Path, out: Path | None, jobs: int | None, scheduler: str | No
 
     Exit status 1: some runs failed, or made an unsafe plan.
     """
-    from trihex.formats.files import check_output
-    from trihex.studies.journal import journal_of
-    from trihex.studies.results import check_results
-    from trihex.studies.run import write_study
-    from trihex.studies.study import read_study
+    from trihex.files import check_output
+    from trihex.studies import check_results, journal_of, read_study, write_study
 
     if jobs and scheduler:
         raise wrong_use("--jobs and --scheduler exclude each other")
@@ -60,7 +57,7 @@ def command(study: Path, out: Path | None, jobs: int | None, scheduler: str | No
 def _workers(scheduler: str | None) -> Any:
     if scheduler is None:
         return nullcontext()
-    from trihex.studies.cluster import connected
+    from trihex.studies import connected
 
     return connected(scheduler)
 

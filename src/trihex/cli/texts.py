@@ -6,9 +6,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from trihex.audit import Audit
-    from trihex.report import Report
-    from trihex.scenario import Scenario
+    from trihex.areas import Scenario
+    from trihex.judging import Audit, Report
 
 _MOST_ROBOTS = 100
 

@@ -17,8 +17,9 @@ def make_tiles(
     area: Path, out: Path | None, tile: int | None, jobs: int | None, scheduler: str | None, options: dict[str, Any]
 ) -> None:
     """Compute the N-scheme of the array `area` into the file `out`, and say so."""
-    from trihex.tessellation import Tessellation
-    from trihex.tiled import SIDE, make_tiled_field
+    from trihex.areas import Tessellation
+    from trihex.fields import TILE_SIDE as SIDE
+    from trihex.fields import make_tiled_field
 
     if out is None:
         raise wrong_use(f"{area} is settled tile by tile into a file: add --out FILE")
@@ -52,7 +53,7 @@ def make_tiles(
 def _executor(jobs: int | None, scheduler: str | None) -> Iterator[tuple[Any, int]]:
     """Yield where tiles are settled, and how many at once."""
     if scheduler:
-        from trihex.studies.cluster import connected
+        from trihex.studies import connected
 
         with connected(scheduler) as cluster:
             # Two for each thread, so that none waits for the next tile; a tile woken again is no repetition.

@@ -27,9 +27,9 @@ def command(file: Path | None, area: Path | None, port: int, no_browser: bool, *
 
     The server listens on this machine only, and answers only those who know the address that is told here.
     """
-    from trihex.formats.files import read_bytes
-    from trihex.formats.recognise import format_of
-    from trihex.viewer.launch import open_viewer
+    from trihex.files import read_bytes
+    from trihex.formats import format_of
+    from trihex.viewer import open_viewer
 
     if file is None and any(value not in (None, ()) for value in options.values()):
         raise wrong_use("options tell how FILE is read: name a FILE")

@@ -8,11 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.area import Area
+from trihex.areas import Area, Ground, Scenario, random_robots
 from trihex.errors import ScenarioError
-from trihex.ground import Ground
 from trihex.record import Record
-from trihex.scenario import Scenario, random_robots
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,7 +80,8 @@ class Draft(Record):
 
 def _draw(scenario: Scenario, count: int, seed: int) -> NDArray[np.int64]:
     """Return `count` cells for robots."""
-    from trihex.schemes import NOT_REACHED, make_n_scheme
+    from trihex.fields import make_n_scheme
+    from trihex.kernels.codes import NOT_REACHED
 
     # 1.7 % of the free cells of Berlin_1_256 are closed courtyards: 17 of 1000 robots drawn there could not arrive.
     apart = np.flatnonzero(make_n_scheme(scenario).distance.reshape(-1) == NOT_REACHED)

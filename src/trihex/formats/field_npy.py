@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.formats.files import new_file
+from trihex.files import new_file
 
 
 def write_field(values: NDArray[Any], path: str | os.PathLike[str]) -> None:

@@ -7,7 +7,8 @@ from pathlib import Path
 from typing import Literal
 
 from trihex.errors import FormatError
-from trihex.formats import plan_csv, starts_csv
+from trihex.formats.plans import csv as plan_csv
+from trihex.formats.starts import csv as starts_csv
 
 Format = Literal[
     "npz", "parquet", "plan", "starts", "scen", "scenario", "movingai", "ros", "image", "geojson", "wkt", "letters"

@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 import os
 
-from trihex.formats.files import new_file
-from trihex.report import Report
+from trihex.files import new_file
+from trihex.judging import Report
 
 
 def report_text(report: Report) -> str:

@@ -41,7 +41,7 @@ def parse_table(
     FormatError
         If the header is another, or a row has too few or too many columns or something else in one of them.
     """
-    from trihex.kernels import table_text
+    from trihex.formats.kernels import table_text
 
     first, _, body = content.partition(b"\n")
     if first.strip() != header.encode():
@@ -66,7 +66,7 @@ def parse_table(
 
 def _complain(where: str, wrong: int, names: list[str], column: int, line: str, words: list[str]) -> None:
     """Raise for what the kernel found, `line` being the rest of the line from the faulty column on."""
-    from trihex.kernels import table_text
+    from trihex.formats.kernels import table_text
 
     name, value = names[column], line.partition(",")[0].strip()[:40]
     if column == 0 and not line.strip():

@@ -8,7 +8,7 @@ import tomllib
 from typing import Any
 
 from trihex.errors import FormatError
-from trihex.formats.files import check_text
+from trihex.files import check_text
 
 MAX_BYTES = 2**26  # tomllib takes some 30 times as much while it reads
 # What is not closed ends with the file or the line, so that each byte is looked at once.

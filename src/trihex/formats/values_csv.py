@@ -7,7 +7,7 @@ import os
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from trihex.formats.files import new_file
+from trihex.files import new_file
 
 
 def write_values(rows: Sequence[Mapping[str, Any]], path: str | os.PathLike[str]) -> None:

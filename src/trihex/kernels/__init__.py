@@ -1,9 +1,9 @@
-"""Numba kernels: arrays in, arrays filled; no objects, no shapes' names, no messages.
+"""Kernels: what all compiled code shares; each package has its own kernels in a folder of that name.
 
 Conventions, the same in every kernel:
 
-- A *site* is an index into the padded flat array that `trihex.tessellation.Layout` describes. The padding counts as
-  barrier, so that no kernel ever tests bounds.
+- A *site* is an index into the padded flat array that `trihex.areas.Layout` describes. The padding counts as barrier,
+  so that no kernel ever tests bounds.
 - ``parity = site & 1`` picks the row of an offset table: ``neighbour = site + offset[parity, direction]``.
 - Directions are numbered from 0, edge moves first; `WAIT` (255) is the action that stays. Bit k of a uint16 of
   ``moves`` tells whether direction k may be taken from a site (target free, corner rule met).
@@ -12,59 +12,3 @@ Conventions, the same in every kernel:
 
 Its modules import numba, so the rest of trihex imports them inside functions only, when a kernel is to run.
 """
-
-import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
-
-# The distance of a cell from which no destination can be reached, in int32 as in the files that users see.
-NOT_REACHED = 2**31 - 1
-
-# The command line sets it: nobody else compiles anything in this process.
-is_alone = False
-
-
-def load_numba_alone() -> None:
-    """Load of numba only what runs kernels found on disk, for a process that runs trihex alone.
-
-    Before its first function is compiled or found on disk, numba loads and registers all that it can compile. That is
-    put off here until a kernel must be compiled; one found on disk does without. It also imports scipy.linalg (to see
-    whether ``np.dot`` may be compiled) and cffi, if they are there, for nothing that a kernel needs. They are hidden
-    from it and can be imported as ever afterwards, but code compiled in this process cannot call linear algebra.
-    """
-    if "numba.np.arraymath" in sys.modules:
-        return
-    from numba.core.caching import FunctionCache
-    from numba.core.registry import cpu_target
-    from numba.core.runtime.nrt import rtsys
-
-    context = cpu_target.target_context
-    refresh, load = context.refresh, FunctionCache.load_overload
-
-    def refresh_alone() -> None:
-        with _hidden("scipy.linalg", "cffi"):
-            refresh()
-
-    def load_alone(self: FunctionCache, sig: object, target_context: object) -> object:
-        context.refresh = int  # it does nothing
-        try:
-            with _hidden("scipy.linalg", "cffi"):
-                return load(self, sig, target_context)
-        finally:
-            context.refresh = refresh_alone
-
-    rtsys.initialize(context)  # what kernels call that make arrays
-    context.refresh = refresh_alone
-    FunctionCache.load_overload = load_alone  # type: ignore[method-assign,assignment]
-
-
-@contextmanager
-def _hidden(*names: str) -> Iterator[None]:
-    """Let imports of these modules fail, if they have not been imported yet."""
-    hidden = {name for name in names if name not in sys.modules}
-    sys.modules.update(dict.fromkeys(hidden))  # type: ignore[arg-type]  # None: an ImportError for whoever asks
-    try:
-        yield
-    finally:
-        for name in hidden:
-            del sys.modules[name]

@@ -5,10 +5,10 @@ from typing import Any
 from numba import types
 from numba.core.options import DefaultOptions
 
-from trihex import kernels
+from trihex.kernels import loading
 
-if kernels.is_alone:
-    kernels.load_numba_alone()
+if loading.is_alone:
+    loading.load_numba_alone()
 
 
 def _array(dtype, readonly):

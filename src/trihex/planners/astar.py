@@ -5,10 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.plan import Plan
+from trihex.fields import NScheme
+from trihex.kernels.codes import NOT_REACHED
 from trihex.planners.recording import Progress
 from trihex.planners.reservations import Reservations
-from trihex.schemes import NOT_REACHED, NScheme
+from trihex.plans import Plan
 
 
 def plan_astar(n_scheme: NScheme, *, memory_limit: int | None = None, progress: Progress | None = None) -> Plan:

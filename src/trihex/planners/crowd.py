@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.scenario import Scenario
-from trihex.schemes import NOT_REACHED, NScheme
+from trihex.areas import Scenario
+from trihex.fields import NScheme
+from trihex.kernels.codes import NOT_REACHED
 
 # Steps of a block: as many as there are bits for the steps in which a vertex is passed. Robot-steps between two looks
 # at the keyboard: a few hundredths of a second.

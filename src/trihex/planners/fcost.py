@@ -7,14 +7,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.arrivals import Arrivals
 from trihex.errors import PlanError, check_choice
-from trihex.plan import Plan
+from trihex.fields import DScheme, NScheme, make_d_scheme
 from trihex.planners.crowd import make_crowd, regions_of, tables_of
 from trihex.planners.greedy import run_greedy
 from trihex.planners.lanes import make_lanes, price_of_waiting
 from trihex.planners.recording import Progress, Recording
-from trihex.schemes import DScheme, NScheme, make_d_scheme
+from trihex.plans import Arrivals, Plan
 
 RULES = ("best", "paper", "queue", "aside", "lanes")
 # Robot-steps up to which "best" tries "lanes" as well, and how many cells times destinations there may be for each of
@@ -59,7 +58,7 @@ def arrivals_fcost(n_scheme: NScheme, *, rule: str = "best", progress: Progress 
 
 
 class Slots:
-    """Branches and slots of a scenario, see `trihex.kernels.slots`.
+    """Branches and slots of a scenario, see `trihex.planners.kernels.slots`.
 
     Parameters
     ----------
@@ -85,7 +84,7 @@ class Slots:
 
     def find_regions(self, starts: NDArray[np.int32]) -> NDArray[np.int64]:
         """Lay slots for robots that start at these sites, and return their regions."""
-        from trihex.kernels import slots as kernels
+        from trihex.planners.kernels import slots as kernels
 
         offset, many = self.layout.offset_of_direction, self.tessellation.direction_count
         number = np.full(self.layout.size, -1, dtype=np.int32)
@@ -111,7 +110,7 @@ class Slots:
 
     def find_slots(self, sites: NDArray[np.int32]) -> NDArray[np.int32]:
         """Return the slots of some sites, after `find_regions`."""
-        from trihex.kernels import slots as kernels
+        from trihex.planners.kernels import slots as kernels
 
         kernels.find_slots(sites, *self.forest)
         return self.slot_of_site[sites]
@@ -150,7 +149,7 @@ def _simulated(
     d_scheme: DScheme, rule: str, keeps_actions: bool, progress: Progress | None, limit: float = float("inf")
 ) -> Recording:
     """Simulate until all have arrived, or the total time is sure to be `limit` or more."""
-    from trihex.kernels import fcost as kernels
+    from trihex.planners.kernels import fcost as kernels
 
     scenario = d_scheme.n_scheme.scenario
     layout, tessellation = scenario.area.layout, scenario.area.tessellation

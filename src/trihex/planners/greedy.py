@@ -5,11 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.arrivals import Arrivals
-from trihex.plan import Plan
+from trihex.fields import NScheme, make_d_scheme
 from trihex.planners.crowd import make_crowd, regions_of, tables_of
 from trihex.planners.recording import Progress, Recording
-from trihex.schemes import NScheme, make_d_scheme
+from trihex.plans import Arrivals, Plan
 
 
 def plan_greedy(n_scheme: NScheme, *, progress: Progress | None = None) -> Plan:
@@ -39,7 +38,7 @@ def run_greedy(
     n_scheme: NScheme, keeps_actions: bool, progress: Progress | None = None, limit: float = float("inf")
 ) -> Recording:
     """Simulate until all have arrived, or the total time is sure to be `limit` or more."""
-    from trihex.kernels import greedy as kernels
+    from trihex.planners.kernels import greedy as kernels
 
     scenario = n_scheme.scenario
     layout = scenario.area.layout

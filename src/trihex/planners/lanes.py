@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from trihex.areas import Scenario
+from trihex.fields import DScheme, NScheme, Wave, make_d_scheme, renew_directions
+from trihex.kernels.codes import NOT_REACHED
 from trihex.record import Record, read_only
-from trihex.scenario import Scenario
-from trihex.schemes import NOT_REACHED, DScheme, NScheme, make_d_scheme
-from trihex.wave import Wave
 
 _BUDGET = 1_000_000
 
@@ -64,8 +64,7 @@ def make_lanes(n_scheme: NScheme, *, all_there_are: bool = False, most_visits: i
     most_visits : int
         Look for no more lanes after visits to so many nodes, each of which takes about a quarter of a microsecond.
     """
-    from trihex.kernels import lanes as kernels
-    from trihex.kernels.repair import renew_directions
+    from trihex.planners.kernels import lanes as kernels
 
     scenario = n_scheme.scenario
     layout, cost = scenario.area.layout, scenario.area.tessellation.cost_of_direction
@@ -80,15 +79,14 @@ def make_lanes(n_scheme: NScheme, *, all_there_are: bool = False, most_visits: i
     forest = replace(n_scheme, distance_of_site=read_only(along))
     directions = make_d_scheme(forest).directions_of_site.copy()
     # Beside a lane, and nowhere else, distances may differ by more than a move, which the D-scheme takes for granted.
-    offset, back = layout.offset_of_direction, layout.back_of_direction
-    renew_directions(sites, scenario.moves, offset, back, cost, along, directions)
+    renew_directions(scenario, sites, scenario.moves, along, directions)
     directions[sites] = direction[sites]
     return Lanes(forest, DScheme(forest, read_only(directions)), read_only(sites))
 
 
 def _linked(n_scheme: NScheme, all_there_are: bool, most_visits: int) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Return the sites of robots, the farthest first, and the nodes of `trihex.kernels.lanes` with all lanes."""
-    from trihex.kernels import lanes as kernels
+    """Return the sites of robots, the farthest first, and the nodes of `kernels.lanes` with all lanes."""
+    from trihex.planners.kernels import lanes as kernels
 
     scenario, distance = n_scheme.scenario, n_scheme.distance_of_site
     layout, tessellation = scenario.area.layout, scenario.area.tessellation

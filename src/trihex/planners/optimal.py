@@ -10,13 +10,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.errors import PlanError, check_choice
-from trihex.plan import Plan
-from trihex.planners.earliest import make_earliest_flow
+from trihex.fields import NScheme
+from trihex.kernels.codes import NOT_REACHED
+from trihex.optimum import (
+    OBJECTIVES,
+    Flow,
+    Network,
+    make_earliest_flow,
+    make_flow_by_levels,
+    make_flow_singly,
+    make_network,
+    make_plan_of_flow,
+)
 from trihex.planners.fcost import plan_fcost
-from trihex.planners.flow import Flow, make_flow_by_levels, make_flow_singly
 from trihex.planners.greedy import plan_greedy
-from trihex.planners.network import OBJECTIVES, Network, make_network
-from trihex.schemes import NOT_REACHED, NScheme
+from trihex.plans import Plan
 
 
 def plan_optimal(
@@ -68,7 +76,7 @@ def plan_optimal(
     cells = network.node_of_site[sites[going]].astype(np.int64)
     order = np.argsort(network.value[cells], kind="stable")
     flow = _find_flow(n_scheme, network, cells[order], going[order], progress=progress, memory_limit=memory_limit)
-    return _make_plan(flow, going[order], proves=objective == "time")
+    return make_plan_of_flow(flow, going[order], proves=objective == "time")
 
 
 def _find_flow(
@@ -81,31 +89,3 @@ def _find_flow(
     if network.has_equal_steps:
         return make_earliest_flow(network, cells, robots, plan_fcost(n_scheme), **options)
     return make_flow_by_levels(network, cells, **options)
-
-
-def _make_plan(flow: Flow, robots: NDArray[np.int64], proves: bool) -> Plan:
-    """Let the robots follow the flow."""
-    from trihex.kernels import flow_paths as kernels
-
-    network = flow.network
-    scenario = network.scenario
-    layout = scenario.area.layout
-    arrival = np.zeros(robots.size, dtype=np.int64)
-    shape = network.cell_count, network.first_destination, network.out_arcs
-    while kernels.part_exchanges(flow.start_of_robot, *shape, flow.flow, arrival):
-        pass
-    length = np.zeros(scenario.robot_count, dtype=np.int64)
-    length[robots] = arrival
-    first_action = np.concatenate([[0], np.cumsum(length)])
-    actions = np.empty(first_action[-1], dtype=np.uint8)
-    kernels.write_actions(
-        flow.start_of_robot,
-        *shape,
-        flow.flow,
-        network.site_of_node,
-        layout.offset_of_direction,
-        first_action[robots],
-        actions,
-    )
-    plan = Plan(scenario, actions, first_action, planner="optimal")
-    return replace(plan, optimal=proves and plan.total_time == flow.total)

@@ -8,11 +8,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.arrivals import Arrivals
 from trihex.errors import TooLargeError
-from trihex.plan import WAIT, Plan
+from trihex.kernels.codes import WAIT
+from trihex.memory import GIB, available_memory
 from trihex.planners.crowd import Crowd
-from trihex.planners.memory import GIB, available_memory
+from trihex.plans import Arrivals, Plan
 
 Progress = Callable[[int, int], None]
 # Below so many bytes nobody asks whether there is room; and the part of what is free that may be taken.
@@ -111,7 +111,7 @@ class Recording:
             )
 
     def _keep(self, rows: Rows) -> None:
-        from trihex.kernels.rows import add_times
+        from trihex.planners.kernels.rows import add_times
 
         if self.keeps_actions:
             self._rows.append(rows)
@@ -127,7 +127,7 @@ class Recording:
 
     def make_plan(self, planner: str) -> Plan:
         """Return the plan, once all have arrived."""
-        from trihex.kernels.rows import write_rows
+        from trihex.planners.kernels.rows import write_rows
 
         first_action = np.concatenate([[0], np.cumsum(self._by_robot(self.crowd.arrival))])
         actions = np.empty(first_action[-1], dtype=np.uint8)

@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.errors import TooLargeError
-from trihex.planners.memory import GIB, limit_or_default
-from trihex.schemes import NOT_REACHED, NScheme
+from trihex.fields import NScheme
+from trihex.kernels.codes import NOT_REACHED
+from trihex.memory import GIB, limit_or_default
 
 _BUDGET = 200_000  # nodes looked at in one call of a kernel
 
@@ -25,7 +26,7 @@ class Reservations:
     """
 
     def __init__(self, n_scheme: NScheme, memory_limit: int | None = None) -> None:
-        from trihex.kernels import astar as kernels
+        from trihex.planners.kernels import astar as kernels
 
         scenario = n_scheme.scenario
         self.scenario, self.distance = scenario, n_scheme.distance_of_site
@@ -92,7 +93,7 @@ class Reservations:
 
         ``is_shut[site]`` bars sites, none if it is empty. None as well if that is not known after `most_looks` nodes.
         """
-        from trihex.kernels import astar as kernels
+        from trihex.planners.kernels import astar as kernels
 
         offset, vertex, cost, back = self._moves
         earliest = kernels.find_first_entry(
@@ -130,7 +131,7 @@ class Reservations:
 
     def reserve(self, start: int, actions: NDArray[np.uint8], is_on: bool = True) -> None:
         """Reserve a way, or free it again."""
-        from trihex.kernels import astar as kernels
+        from trihex.planners.kernels import astar as kernels
 
         self.make_room(actions.size + 1)
         offset, vertex = self._moves[:2]

@@ -23,7 +23,7 @@ def main(arguments: list[str]) -> None:
     trials: SimpleQueue[Any] = SimpleQueue()
     threading.Thread(target=_read, args=(asked, trials), daemon=True).start()
 
-    from trihex.studies.trial import run_trial, warm_up
+    from trihex.studies.case import run_trial, warm_up
 
     warm_up("greedy")
     if arguments:

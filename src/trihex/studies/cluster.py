@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from trihex.errors import MissingExtraError, StudyError
-from trihex.studies.trial import versions
+from trihex.studies.case import versions
 
 _SECONDS = 10
 

@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 
 from trihex.errors import StudyError
+from trihex.studies.case import Row, versions
 from trihex.studies.study import Study
-from trihex.studies.trial import Row, versions
 
 _KIND = "journal of a trihex study, which goes on with the same command"
 

@@ -5,11 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.area import Area
+from trihex.areas import Area, make_regions, random_robots
 from trihex.errors import ScenarioError
-from trihex.regions import make_regions
-from trihex.scenario import random_robots
-from trihex.schemes import NOT_REACHED, NScheme
+from trihex.fields import NScheme
+from trihex.kernels.codes import NOT_REACHED
 
 SIDES = ("west", "east", "north", "south")
 # "file": those that the file of the area names.

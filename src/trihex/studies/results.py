@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from trihex.errors import MissingExtraError
-from trihex.formats.files import new_file, suffix_of
-from trihex.studies.trial import COLUMNS, Row
+from trihex.files import new_file, suffix_of
+from trihex.studies.case import COLUMNS, Row
 
 SUFFIXES = (".csv", ".parquet")
 _ROWS_AT_ONCE = 10_000

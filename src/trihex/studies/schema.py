@@ -7,12 +7,10 @@ from typing import Annotated, Any, TypeVar
 
 from pydantic import AfterValidator, BeforeValidator, Field
 
-from trihex.formats.options import UNKNOWNS
+from trihex.areas import CORNERS, COSTS, CROSSINGS, GENERATORS, NEIGHBOURHOODS, TESSELLATIONS
+from trihex.formats.areas.options import UNKNOWNS
 from trihex.formats.schema import Cells, Count, Number, Points, Table, Whole, choice
-from trihex.generators import GENERATORS
-from trihex.scenario import CORNERS, CROSSINGS
 from trihex.studies.placing import DESTINATION_PLACES, ROBOT_PLACEMENTS
-from trihex.tessellation import COSTS, NEIGHBOURHOODS, TESSELLATIONS
 
 _MOST_SEEDS = 10_000_000
 _UNITS = {"": 1, "k": 10**3, "M": 10**6, "G": 10**9, "T": 10**12, "Ki": 2**10, "Mi": 2**20, "Gi": 2**30}

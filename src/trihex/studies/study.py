@@ -11,15 +11,15 @@ from inspect import signature
 from pathlib import Path
 from typing import Any
 
+from trihex.areas import Scenario
 from trihex.errors import FormatError, StudyError, TrihexError
-from trihex.formats.files import read_bytes
+from trihex.files import read_bytes
+from trihex.formats import complaint, parse_toml
 from trihex.formats.schema import check_document
-from trihex.formats.toml import complaint, parse_toml
 from trihex.record import Record
-from trihex.scenario import Scenario
+from trihex.studies.case import hash_of_scenario, read_area_of, try_planner, versions
 from trihex.studies.grid import Grid, variants_of
 from trihex.studies.schema import AreaAxis, PlannerAxis, StudyTable, bytes_of
-from trihex.studies.trial import hash_of_scenario, read_area_of, try_planner, versions
 
 # What the key of a run is called, and that of its axis in a file; the last changes fastest, so that the runs of one
 # scenario follow each other.
@@ -225,7 +225,7 @@ class _Check:
 
 
 def _check_generator(generator: str, given: dict[str, Any]) -> None:
-    from trihex.generators import GENERATORS
+    from trihex.areas import GENERATORS
 
     known = {name: set(signature(maker).parameters) for name, maker in GENERATORS.items()}
     if "size" not in given:

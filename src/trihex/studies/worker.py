@@ -14,7 +14,7 @@ from time import monotonic
 from typing import NamedTuple
 
 from trihex.errors import StudyError
-from trihex.studies.trial import Row, Trial, blank_row, run_trial
+from trihex.studies.case import Row, Trial, blank_row, run_trial
 
 # How often a trial may lose its child before it is given up, and how often a child may die before it is ready. Each
 # loss may be somebody else's doing, such as that of the kernel when memory is short.

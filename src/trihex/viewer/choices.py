@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from trihex.generators import GENERATORS
+from trihex.areas import CORNERS, COSTS, CROSSINGS, GENERATORS, NEIGHBOURHOODS, TESSELLATIONS, Tessellation
 from trihex.planners import PLANNERS, options_of
-from trihex.scenario import CORNERS, CROSSINGS
-from trihex.tessellation import COSTS, NEIGHBOURHOODS, TESSELLATIONS, Tessellation
 from trihex.viewer.exports import EXPORTS
 from trihex.viewer.folder import SUFFIXES
 

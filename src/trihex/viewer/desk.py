@@ -18,22 +18,16 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.area import Area
-from trihex.audit import audit_plan
-from trihex.automaton import distance_generations
+from trihex.areas import GENERATORS, Area, Scenario, random_robots
 from trihex.bounds import LowerBound, distance_bound, make_lower_bound, slot_bound
 from trihex.errors import FormatError, TooLargeError, TrihexError, check_choice
-from trihex.formats import read_draft, read_plan, read_starts
-from trihex.formats.draft import Draft, draft_of
-from trihex.formats.files import read_bytes
-from trihex.formats.recognise import format_of
-from trihex.generators import GENERATORS
-from trihex.plan import Plan
+from trihex.fields import NScheme, distance_generations, make_d_scheme, make_n_scheme
+from trihex.files import read_bytes
+from trihex.formats import Draft, draft_of, format_of, read_draft, read_plan, read_starts
+from trihex.judging import Report, audit_plan, make_report
 from trihex.planners import PLANNERS, make_plan
-from trihex.report import Report, make_report
-from trihex.run import Run
-from trihex.scenario import Scenario, random_robots
-from trihex.schemes import NScheme, make_d_scheme, make_n_scheme
+from trihex.plans import Plan
+from trihex.running import Run
 from trihex.viewer import requests as ask
 from trihex.viewer.bundle import Bundle, decode, encode
 from trihex.viewer.document import document_of, draft_of_document

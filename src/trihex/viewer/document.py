@@ -8,11 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from trihex.area import Area
+from trihex.areas import Area, Frame, Tessellation
 from trihex.errors import FormatError, TooLargeError
-from trihex.formats.draft import Draft
-from trihex.frame import Frame
-from trihex.tessellation import Tessellation
+from trihex.formats import Draft
 from trihex.viewer.bundle import Bundle
 
 # A page holds some 20 bytes a cell and 50 a robot.

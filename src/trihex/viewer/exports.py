@@ -6,32 +6,35 @@ from collections.abc import Callable
 from pathlib import Path
 
 from trihex.errors import FormatError, check_choice
+from trihex.fields import make_n_scheme
 from trihex.formats import (
     AREA_SUFFIXES,
     PLAN_SUFFIXES,
     SCENARIO_SUFFIXES,
     WAYPOINT_SUFFIXES,
+    Draft,
+    draft_of,
     write_area,
+    write_field,
     write_plan,
+    write_report,
+    write_run,
     write_scenario,
     write_starts,
     write_waypoints,
 )
-from trihex.formats.draft import Draft, draft_of
-from trihex.formats.field_npy import write_field
-from trihex.formats.report_json import write_report
-from trihex.formats.run_npz import write_run
-from trihex.movie import SUFFIXES as MOVIE_SUFFIXES
-from trihex.movie import write_animation
-from trihex.picture import SUFFIXES as PICTURE_SUFFIXES
-from trihex.picture import picture_of_area, picture_of_plan
-from trihex.report import Report
-from trihex.run import Run
-from trihex.run_movie import write_run_animation
-from trihex.run_picture import picture_of_run
-from trihex.schemes import make_n_scheme
-from trihex.viewer.page import SUFFIXES as PAGE_SUFFIXES
-from trihex.viewer.page import write_report_page
+from trihex.judging import Report
+from trihex.pictures import (
+    MOVIE_SUFFIXES,
+    PICTURE_SUFFIXES,
+    picture_of_area,
+    picture_of_plan,
+    picture_of_run,
+    write_animation,
+    write_run_animation,
+)
+from trihex.running import Run
+from trihex.viewer.page import PAGE_SUFFIXES, write_report_page
 
 # What, its suffixes, and what it is made of: a "draft", a "plan" or a live "run".
 EXPORTS: dict[str, tuple[tuple[str, ...], str]] = {

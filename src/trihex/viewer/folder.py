@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from trihex.errors import FormatError
-from trihex.formats.files import MAX_BYTES, check_text, read_bytes
-from trihex.formats.recognise import format_of
-from trihex.formats.ros import parse_yaml
+from trihex.files import MAX_BYTES, check_text, read_bytes
+from trihex.formats import format_of
+from trihex.formats.areas.ros import parse_yaml
 
 SUFFIXES = (
     *(".map", ".txt", ".toml", ".npz", ".csv", ".parquet", ".scen"),

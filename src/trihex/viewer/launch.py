@@ -6,10 +6,9 @@ import os
 import webbrowser
 from collections.abc import Callable
 
-from trihex.area import Area
-from trihex.formats.draft import Draft
-from trihex.plan import Plan
-from trihex.scenario import Scenario
+from trihex.areas import Area, Scenario
+from trihex.formats import Draft
+from trihex.plans import Plan
 from trihex.viewer.desk import Desk
 from trihex.viewer.folder import Folder
 from trihex.viewer.server import make_viewing

@@ -8,13 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from trihex.areas import Scenario
 from trihex.errors import ExecutionError, TooLargeError
-from trihex.events import Event
-from trihex.run import ARRIVED, BROKEN, GOING, LATE, LEFT, WAIT, Run
-from trihex.run_report import RunReport, make_run_report
-from trihex.scenario import Scenario
-from trihex.sensing import Sensor
-from trihex.trial import Trial
+from trihex.kernels.codes import LATE, WAIT
+from trihex.running import ARRIVED, BROKEN, GOING, LEFT, Event, Run, RunReport, Sensor, Trial, make_run_report
 from trihex.viewer import requests as ask
 from trihex.viewer.bundle import Bundle
 

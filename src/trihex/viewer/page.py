@@ -13,17 +13,16 @@ from typing import Any
 
 import numpy as np
 
-from trihex import palette
-from trihex.formats.files import new_file, suffix_of
-from trihex.plan import Plan
-from trihex.report import Report, make_report
-from trihex.run_picture import FOG, FOG_BARRIER
-from trihex.schemes import make_n_scheme
+from trihex.fields import make_n_scheme
+from trihex.files import new_file, suffix_of
+from trihex.judging import Report, make_report
+from trihex.pictures import FOG, FOG_BARRIER, palette
+from trihex.plans import Plan
 from trihex.viewer.bundle import Bundle, encode
 from trihex.viewer.script import module, source_of
 from trihex.viewer.show import show_plan
 
-SUFFIXES = (".html",)
+PAGE_SUFFIXES = (".html",)
 _POLICY = (
     "default-src 'none'; script-src {script}; style-src {style}; img-src data: blob:; connect-src {connect}; "
     "base-uri 'none'; form-action 'none'"
@@ -99,7 +98,7 @@ def write_page(plan: Plan, path: str | os.PathLike[str], *, beside: Plan | None 
 
 def write_report_page(report: Report, path: str | os.PathLike[str], beside: Report | None = None) -> None:
     """Write a plan with its report as one HTML file; see `write_page`."""
-    suffix_of(path, SUFFIXES, "a page")
+    suffix_of(path, PAGE_SUFFIXES, "a page")
     first = show_plan(report, make_n_scheme(report.plan.scenario))
     if beside is not None:
         second = encode(*show_plan(beside, make_n_scheme(beside.plan.scenario)))

@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 
 from trihex.errors import TooLargeError
-from trihex.formats.draft import draft_of
-from trihex.report import Report
-from trihex.schemes import NScheme
+from trihex.fields import NScheme
+from trihex.formats import draft_of
+from trihex.judging import Report
+from trihex.plans import make_playback
 from trihex.viewer.bundle import Bundle
 from trihex.viewer.document import document_of
-from trihex.viewer.playback import make_playback
 
 MAX_ACTIONS = 2**29
 _MOST_CONFLICTS = 20

@@ -6,12 +6,11 @@ import threading
 from functools import cache
 from typing import Any
 
-from trihex.area import Area
+from trihex.areas import Area, Scenario
 from trihex.errors import MissingExtraError
-from trihex.formats.draft import Draft
-from trihex.plan import Plan
-from trihex.run import Run
-from trihex.scenario import Scenario
+from trihex.formats import Draft
+from trihex.plans import Plan
+from trihex.running import Run
 from trihex.viewer.bundle import encode
 from trihex.viewer.choices import choices
 from trihex.viewer.desk import Desk

@@ -1,0 +1,5 @@
+"""Areas: what is planned on; tessellation, area, metres, generators, scenario."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -1,0 +1,212 @@
+"""Area: a tessellation with its barriers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from trihex.areas.frame import Frame
+from trihex.areas.tessellation import Layout, Tessellation
+from trihex.errors import AreaError, TrihexError
+from trihex.record import Record, read_only
+
+# Sites are int32, and the widest kernels keep some 40 bytes a cell.
+MAX_CELLS = 2_000_000_000
+
+
+@dataclass(frozen=True, eq=False)
+class Area(Record):
+    """A piece of the plane covered by cells, some of which are barriers.
+
+    Parameters
+    ----------
+    tessellation : Tessellation or str
+        A name stands for the full neighbourhood at the paper's costs.
+    barriers : array_like of bool, shape (height, width)
+        True where a cell is a barrier; row 0 is the north, column 0 the west.
+    name : str
+        For reports; a reader puts the name of the file here.
+    frame : Frame, optional
+        Where the area lies in the world; None if it is measured in cells only.
+
+    Raises
+    ------
+    AreaError
+        If `barriers` is not a rectangle of at least one cell.
+
+    Examples
+    --------
+    >>> area = Area("hexagonal", [[0, 1, 0], [0, 0, 0]])
+    >>> area.free_count, area.width
+    (5, 3)
+    """
+
+    tessellation: Tessellation
+    barriers: NDArray[np.bool_]
+    name: str = ""
+    frame: Frame | None = None
+
+    def __post_init__(self) -> None:
+        if isinstance(self.tessellation, str):
+            self._set("tessellation", Tessellation(self.tessellation))
+        try:
+            barriers = np.array(self.barriers, dtype=bool, order="C")
+        except ValueError as error:
+            raise AreaError("barriers must be a rectangle: its rows differ in length") from error
+        if barriers.ndim != 2 or barriers.size == 0:
+            raise AreaError(f"barriers must have shape (height, width) with at least one cell, not {barriers.shape}")
+        if barriers.size > MAX_CELLS:
+            raise AreaError(f"an area may have at most {MAX_CELLS} cells, not {barriers.size}")
+        self._set("barriers", read_only(barriers))
+
+    @property
+    def height(self) -> int:
+        """Number of rows."""
+        return int(self.barriers.shape[0])
+
+    @property
+    def width(self) -> int:
+        """Number of columns."""
+        return int(self.barriers.shape[1])
+
+    @property
+    def cell_count(self) -> int:
+        """Number of cells, barriers included."""
+        return int(self.barriers.size)
+
+    @cached_property
+    def free_count(self) -> int:
+        """Number of cells that are no barrier."""
+        return int(self.barriers.size - np.count_nonzero(self.barriers))
+
+    @cached_property
+    def layout(self) -> Layout:
+        """How the cells lie in the padded flat arrays of the kernels."""
+        return self.tessellation.layout(self.height, self.width)
+
+    def with_tessellation(self, tessellation: Tessellation | str) -> Area:
+        """Return the same rectangle of barriers, read as cells of another tessellation.
+
+        Raises
+        ------
+        AreaError
+            If the area has a frame: cells of another shape, or with more neighbours, would not fit the world.
+        """
+        if isinstance(tessellation, str):
+            tessellation = Tessellation(tessellation)
+        own = self.tessellation
+        if self.frame is not None and (
+            own.name != tessellation.name or own.direction_count < tessellation.direction_count
+        ):
+            raise AreaError(
+                f"tessellation must stay {own.name} {own.neighbourhood} in an area with a frame, not become "
+                f"{tessellation.name} {tessellation.neighbourhood}: read its file again with the other tessellation"
+            )
+        return replace(self, tessellation=tessellation)
+
+    def make_blocked(self) -> NDArray[np.bool_]:
+        """Return anew where nobody can stand: barriers and the padding; a bool for each site, shape (layout.size,)."""
+        from trihex.areas.kernels.moves import fill_blocked
+
+        blocked = np.empty(self.layout.size, dtype=bool)
+        fill_blocked(self.barriers, self.layout.origin, self.layout.pitch, blocked)
+        return blocked
+
+    def is_barrier(self, cell: NDArray[np.int64]) -> NDArray[np.bool_]:
+        """Tell for each cell number whether it is a barrier."""
+        return np.asarray(self.barriers.reshape(-1)[cell])
+
+    def xy_to_cell(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.int64]:
+        """Return the numbers of cells (x, y): y * width + x.
+
+        Raises
+        ------
+        AreaError
+            If a cell lies outside.
+        """
+        x, y = np.asarray(x, dtype=np.int64), np.asarray(y, dtype=np.int64)
+        outside = (x < 0) | (y < 0) | (x >= self.width) | (y >= self.height)
+        if np.any(outside):
+            at = np.unravel_index(int(np.argmax(outside)), outside.shape)
+            where = (int(np.broadcast_to(x, outside.shape)[at]), int(np.broadcast_to(y, outside.shape)[at]))
+            raise AreaError(f"cell {where} lies outside the area: x is 0..{self.width - 1}, y is 0..{self.height - 1}")
+        return np.asarray(y * self.width + x)
+
+    def cell_to_xy(self, cell: ArrayLike) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Return (x, y) of cells given by number; the inverse of `xy_to_cell`."""
+        y, x = np.divmod(np.asarray(cell, dtype=np.int64), self.width)
+        return x, y
+
+    def metres_to_cell(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.int64]:
+        """Return the numbers of the cells in which points of the world lie.
+
+        Raises
+        ------
+        AreaError
+            If a point lies outside, or the area has no frame.
+        """
+        frame = self.metres
+        x, y = np.broadcast_arrays(np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64))
+        with np.errstate(over="ignore", invalid="ignore"):  # such points lie outside
+            px, py = frame.metres_to_point(x, y)
+        width, height = self.tessellation.extent(self.height, self.width)
+        is_inside = (px >= 0) & (py >= 0) & (px <= width) & (py <= height)  # not so for nan
+        cell_x, cell_y = self.tessellation.cell_at_point(np.where(is_inside, px, -9), np.where(is_inside, py, -9))
+        outside = (cell_x < 0) | (cell_y < 0) | (cell_x >= self.width) | (cell_y >= self.height)
+        if np.any(outside):
+            at = np.unravel_index(int(np.argmax(outside)), outside.shape)
+            raise AreaError(f"point ({x[at]:g}, {y[at]:g}) metres lies outside the area")
+        return self.xy_to_cell(cell_x, cell_y)
+
+    def cell_to_metres(self, cell: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return where the centres of cells given by number lie in the world.
+
+        Raises
+        ------
+        AreaError
+            If the area has no frame.
+        """
+        return self.metres.centre_of_cell(self.tessellation, *self.cell_to_xy(cell))
+
+    @property
+    def metres(self) -> Frame:
+        """The frame, where there must be one; raises AreaError if there is none."""
+        if self.frame is None:
+            raise AreaError("the area is measured in cells, not in metres; give it a frame (cell_size)")
+        return self.frame
+
+    def name_of_cell(self, cell: int) -> str:
+        """Return ``(x, y)`` as text, for messages."""
+        return f"({cell % self.width}, {cell // self.width})"
+
+
+def cells_from(area: Area, places: Any, parameter: str, error: type[TrihexError]) -> NDArray[np.int64]:
+    """Return the cell numbers of `places`: pairs (x, y), or a flat array of cell numbers.
+
+    Raises `error`, naming `parameter`, if the places have neither form or lie outside `area`.
+    """
+    if isinstance(places, Iterable) and not isinstance(places, np.ndarray):
+        places = list(places)
+    try:
+        array = np.asarray(places)
+    except ValueError:  # ragged
+        array = np.empty(0, dtype=object).reshape(0, 0, 0)
+    if array.size == 0 and array.ndim < 3:
+        return np.empty(0, dtype=np.int64)
+    if not np.issubdtype(array.dtype, np.integer) or array.ndim not in (1, 2) or array.shape[1:] not in ((), (2,)):
+        raise error(f"{parameter} must be pairs of integers (x, y) or a flat array of cell numbers, not {places!r:.80}")
+    if array.ndim == 2:
+        try:
+            return area.xy_to_cell(array[:, 0], array[:, 1])
+        except AreaError as outside:
+            raise error(f"{parameter}: {outside}") from None
+    cells = array.astype(np.int64)
+    if cells.min() < 0 or cells.max() >= area.cell_count:
+        worst = int(cells[(cells < 0) | (cells >= area.cell_count)][0])
+        raise error(f"{parameter}: cell number {worst} lies outside the area of {area.cell_count} cells")
+    return cells

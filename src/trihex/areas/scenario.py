@@ -1,0 +1,207 @@
+"""Scenario: an area with its destinations, its robots and the rules they move by."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trihex.areas.area import Area, cells_from
+from trihex.areas.clearance import check_cell_size, check_rules
+from trihex.errors import ScenarioError, check_choice
+from trihex.record import Record, read_only
+
+CROSSINGS = ("forbid", "allow")
+CORNERS = ("allow", "no-squeeze", "no-cut")
+_BLOCK = 1 << 24  # sites a kernel looks at in one call, even; Ctrl-C works in between
+
+
+@dataclass(frozen=True, eq=False)
+class Scenario(Record):
+    """What is to be planned: robots that share a goal, and the rules of section 5 of the reading of the paper.
+
+    Parameters
+    ----------
+    area : Area
+    destinations : sequence of (x, y), or array of cell numbers
+        Cells that absorb robots; at least one.
+    robots : sequence of (x, y), or array of cell numbers
+        Start of each robot; robots are numbered in this order. Kept as cell numbers (y * width + x), int64. A robot
+        that starts on a destination has arrived at step 0.
+    waiting_cost : int, optional
+        w_t, the cost of waiting one step, in the unit of the cost table. Default: as much as a step across an edge.
+    crossing : {"forbid", "allow"}
+        Whether two robots may pass the same lattice vertex in one step.
+    corners : {"allow", "no-squeeze", "no-cut"}
+        When a vertex move is open: always; if one way round the vertex meets no barrier; if no barrier touches the
+        vertex. What lies outside the area counts as barrier.
+    destination_capacity : int, optional
+        How many robots may enter one destination in one step. Default: any number; 1 in an area with a frame.
+    seed : int, optional
+        What drew the robots, for reports.
+
+    Raises
+    ------
+    ScenarioError
+        If a destination or robot lies outside or on a barrier, two robots share a cell, a rule does not exist, or the
+        rules let robots of the frame's radius overlap.
+    AreaError
+        If the cells are too small for robots of the frame's radius.
+
+    Examples
+    --------
+    >>> scenario = Scenario(Area("square", [[0, 0, 0]]), destinations=[(2, 0)], robots=[(0, 0)])
+    >>> scenario.robots, scenario.waiting_cost
+    (array([0]), 10)
+    """
+
+    area: Area
+    destinations: NDArray[np.int64]
+    robots: NDArray[np.int64] = ()  # type: ignore[assignment]
+    waiting_cost: int = None  # type: ignore[assignment]
+    crossing: str = "forbid"
+    corners: str = "allow"
+    destination_capacity: int | None = None
+    seed: int | None = None
+
+    def __post_init__(self) -> None:
+        area = self.area
+        if not isinstance(area, Area):
+            raise ScenarioError(f"area must be an Area, not {type(area).__name__}")
+        check_choice("crossing", self.crossing, CROSSINGS, ScenarioError)
+        check_choice("corners", self.corners, CORNERS, ScenarioError)
+        if self.waiting_cost is None:
+            self._set("waiting_cost", area.tessellation.edge_cost)
+        _check_whole("waiting_cost", self.waiting_cost, 0)
+        if self.destination_capacity is None and area.frame is not None:
+            self._set("destination_capacity", 1)
+        if self.destination_capacity is not None:
+            _check_whole("destination_capacity", self.destination_capacity, 1)
+        if area.frame is not None:
+            check_cell_size(area.tessellation, area.frame)
+            check_rules(area.tessellation, area.frame, self.crossing, self.destination_capacity)
+        for parameter, one in (("destinations", "destination"), ("robots", "robot")):
+            cells = cells_from(area, getattr(self, parameter), parameter, ScenarioError)
+            _check_free(area, cells, one)
+            self._set(parameter, read_only(np.array(cells)))
+        if self.destinations.size == 0:
+            raise ScenarioError("destinations must name at least one cell")
+        self._set("destinations", read_only(_without_repeats(self.destinations)))
+        _check_distinct(area, self.robots)
+
+    @property
+    def robot_count(self) -> int:
+        """n, the number of robots."""
+        return int(self.robots.size)
+
+    @cached_property
+    def moves(self) -> NDArray[np.uint16]:
+        """Open moves of each site: bit k is set where direction k may be taken; shape (layout.size,)."""
+        from trihex.areas.kernels import moves as kernels
+
+        layout, tessellation = self.area.layout, self.area.tessellation
+        blocked = self.area.make_blocked()
+        moves = np.zeros(layout.size, dtype=np.uint16)
+        end = layout.origin + layout.height * layout.pitch
+        for start in range(layout.origin, end, _BLOCK):
+            kernels.fill_moves(
+                blocked,
+                start,
+                min(start + _BLOCK, end),
+                layout.offset_of_direction,
+                layout.vertex_of_direction,
+                layout.ring_of_vertex,
+                tessellation.edge_count,
+                CORNERS.index(self.corners),
+                moves,
+            )
+        return read_only(moves)
+
+    def with_robots(self, robots: Any, seed: int | None = None) -> Scenario:
+        """Return the same scenario with other robots."""
+        return replace(self, robots=robots, seed=seed)
+
+
+def random_robots(area: Area, count: int, seed: int = 0, *, avoid: Any = ()) -> NDArray[np.int64]:
+    """Return the cell numbers of `count` robots on distinct free cells, drawn uniformly, in the order drawn.
+
+    Parameters
+    ----------
+    area : Area
+    count : int
+    seed : int
+        The same seed gives the same robots.
+    avoid : sequence of (x, y), or array of cell numbers
+        Cells to keep free, usually the destinations.
+
+    Raises
+    ------
+    ScenarioError
+        If there are fewer free cells than robots.
+    """
+    _check_whole("robots", count, 0)
+    _check_whole("seed", seed, 0)
+    is_free = ~area.barriers.reshape(-1)
+    is_free[cells_from(area, avoid, "avoid", ScenarioError)] = False
+    free = np.flatnonzero(is_free)
+    if count > free.size:
+        raise ScenarioError(f"robots must be at most the number of free cells, {free.size}, not {count}")
+    return np.random.default_rng(seed).choice(free, size=count, replace=False).astype(np.int64)
+
+
+def _check_whole(parameter: str, value: object, least: int) -> None:
+    whole = isinstance(value, int | np.integer) and not isinstance(value, bool)
+    if not whole or not least <= int(value) <= 2**30:  # type: ignore[call-overload]
+        raise ScenarioError(f"{parameter} must be a whole number from {least} to {2**30}, not {value!r}")
+
+
+def _check_free(area: Area, cells: NDArray[np.int64], one: str) -> None:
+    stuck = np.flatnonzero(area.is_barrier(cells)) if cells.size else cells
+    if stuck.size:
+        number, where, why = int(stuck[0]), area.name_of_cell(int(cells[stuck[0]])), ""
+        if area.frame is not None:
+            where += _metres_of(area, int(cells[number]))
+            radius = area.frame.robot_radius
+            why = (
+                f": something stands too near for robots of radius {radius:g}" if radius else ": something stands there"
+            )
+        near = _free_cell_near(area, int(cells[number]))
+        hint = "" if near is None else f"; the nearest free cell is {area.name_of_cell(near)}{_metres_of(area, near)}"
+        raise ScenarioError(f"{one} {number} must stand on a free cell; {where} is a barrier{why}{hint}")
+
+
+def _metres_of(area: Area, cell: int) -> str:
+    if area.frame is None:
+        return ""
+    x, y = area.cell_to_metres(cell)
+    return f" at ({x:g}, {y:g}) metres"
+
+
+def _free_cell_near(area: Area, cell: int) -> int | None:
+    """Return the free cell whose centre is nearest to that of `cell`, looked for within 50 rows and columns."""
+    x, y = (int(number) for number in area.cell_to_xy(cell))
+    left, top = max(0, x - 50), max(0, y - 50)
+    rows, columns = np.nonzero(~area.barriers[top : y + 51, left : x + 51])
+    if rows.size == 0:
+        return None
+    px, py = area.tessellation.centre_of_cell(columns + left, rows + top)
+    cx, cy = area.tessellation.centre_of_cell(x, y)
+    nearest = int(np.argmin((px - cx) ** 2 + (py - cy) ** 2))
+    return int(area.xy_to_cell(int(columns[nearest]) + left, int(rows[nearest]) + top))
+
+
+def _check_distinct(area: Area, robots: NDArray[np.int64]) -> None:
+    order = np.argsort(robots, kind="stable")
+    same = np.flatnonzero(robots[order][1:] == robots[order][:-1])
+    if same.size:
+        one, other = int(order[same[0]]), int(order[same[0] + 1])
+        where = area.name_of_cell(int(robots[one]))
+        raise ScenarioError(f"two robots must not share a cell; robots {one} and {other} both start at {where}")
+
+
+def _without_repeats(cells: NDArray[np.int64]) -> NDArray[np.int64]:
+    _, first = np.unique(cells, return_index=True)
+    return cells[np.sort(first)]

@@ -1,0 +1,226 @@
+"""Bounds: total times that no plan can beat.
+
+All bounds are sums of t_r over the robots that can arrive. What they forget, and how good they are, is told in
+docs/bounds.md.
+
+A bound on *steps* becomes one on costs so: let m be the least that a step can cost, min(w_t, cheapest move), and
+0 <= u <= m. Charge u for each step; what is left of a move is its cost less u, and of a wait w_t less u, neither
+negative. So t_r >= u * (steps of r) + (least sum of what is left on a way of r), for every u alike.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trihex.areas import Scenario
+from trihex.bounds.cuts import Crowd, Cut, find_crowded_nodes, find_cuts, make_crowd
+from trihex.bounds.gates import least_arrivals, make_gate_network
+from trihex.fields import NScheme
+from trihex.kernels.codes import NOT_REACHED
+from trihex.record import Record
+
+_BUDGET = 2_000_000
+# What the cut bound may cost: ways into the destinations times nodes, sites visited by all searches, slots in memory
+# (some 50 bytes each), looks at slots. Together some seconds at worst, a fraction of what a plan of that size costs.
+_MOST_SENT = 100_000_000
+_MOST_VISITS = 30_000_000
+_VISITS_PER_ROBOT = 3000  # few robots on a large area: 14 gates in place of 33 leave the bound within 0.001 %
+_MOST_SLOTS = 5_000_000
+_MOST_LOOKS = 50_000_000
+
+
+@dataclass(frozen=True, eq=False)
+class LowerBound(Record):
+    """A total time that no plan can beat.
+
+    Parameters
+    ----------
+    name : str
+        How it was found: "distance", "slot", ... or "optimum" where a plan proves that it can be attained.
+    value : int
+    """
+
+    name: str
+    value: int
+
+
+def make_lower_bound(n_scheme: NScheme, *, progress: Callable[[int, int], None] | None = None) -> LowerBound:
+    """Return the best of all bounds that are quick at this size.
+
+    Examples
+    --------
+    >>> from trihex import Area, make_n_scheme
+    >>> scenario = Scenario(Area("hexagonal", [[0, 0, 0, 0]]), destinations=[(0, 0)], robots=[(2, 0), (3, 0)])
+    >>> make_lower_bound(make_n_scheme(scenario)).value
+    50
+    """
+    makers = (distance_bound, slot_bound, cut_bound)
+    best = None
+    for done, make in enumerate(makers):
+        bound = make(n_scheme)
+        if best is None or bound.value > best.value:
+            best = bound
+        if progress is not None:
+            progress(done + 1, len(makers))
+    assert best is not None
+    return best
+
+
+def distance_bound(n_scheme: NScheme) -> LowerBound:
+    """Sum of the N-scheme's values: nobody ever waits."""
+    distance = n_scheme.distance_of_cell(n_scheme.scenario.robots).astype(np.int64)
+    return LowerBound("distance", int(distance[distance != NOT_REACHED].sum()))
+
+
+def slot_bound(n_scheme: NScheme) -> LowerBound:
+    """In each step only so many robots can enter the destinations, and none before its number of steps allows.
+
+    The number is that of the moves that lead in: one for each neighbour, or for each lattice vertex where crossing is
+    forbidden, at most the destination's capacity.
+    """
+    from trihex.bounds.kernels import steps as kernels
+
+    scenario = n_scheme.scenario
+    slots = np.sort(make_crowd(scenario).steps)
+    return LowerBound("slot", _least_cost(n_scheme, int(kernels.queue_up(slots, entries_per_step(scenario)))))
+
+
+def cut_bound(
+    n_scheme: NScheme, *, most_gates: int = 64, progress: Callable[[int, int], None] | None = None
+) -> LowerBound:
+    """Robots hinder each other at gates only: at nested least cuts, and where most shortest ways meet.
+
+    Parameters
+    ----------
+    n_scheme : NScheme
+    most_gates : int
+        Fewer are taken where the searches from all gates would take more than about a second.
+    progress : callable, optional
+        Called with (robots served, robots).
+    """
+    return LowerBound(
+        "cut", _least_cost(n_scheme, _steps_past_gates(make_crowd(n_scheme.scenario), most_gates, progress))
+    )
+
+
+def _steps_past_gates(crowd: Crowd, most_gates: int, progress: Callable[[int, int], None] | None) -> int:
+    """Return how many steps all robots of a crowd need at least in all."""
+    free_cells, entries = crowd.scenario.area.free_count, entries_per_step(crowd.scenario)
+    cuts = []
+    if entries * crowd.node_count <= _MOST_SENT:
+        cuts = find_cuts(crowd, most_searches=_MOST_VISITS // (4 * free_cells) + 1)
+    queued = _steps_past_cuts(crowd, cuts, entries)
+    visits = min(_MOST_VISITS, _VISITS_PER_ROBOT * crowd.sites.size)
+    gates = _choose_gates(crowd, cuts, min(most_gates, visits // free_cells))
+    horizon = int(queued.max(initial=0)) * 5 // 4 + 100
+    horizon = min(horizon, _MOST_SLOTS // max(gates.size, 1))
+    if gates.size == 0 or horizon == 0:
+        return int(queued.sum())
+    total, served, last = least_arrivals(crowd, make_gate_network(crowd, gates), horizon, _MOST_LOOKS, progress)
+    # Whoever is not served by the last step looked at arrives later, no more in a step than can enter.
+    left = np.arange(crowd.sites.size - served)
+    total += int((last + 1 + left // entries).sum())
+    return max(total, int(queued.sum()))
+
+
+def _steps_past_cuts(crowd: Crowd, cuts: list[Cut], entries: int) -> NDArray[np.int64]:
+    """Return a least number of steps of each robot in some order, if of those behind a cut only `width` pass it a step.
+
+    Where a robot passes the cut it is known how soon it can arrive. So the numbers of steps of those behind the first
+    cut are delayed until each occurs at most `width` times, then together with the next ones at the next cut.
+    """
+    from trihex.bounds.kernels import steps as kernels
+
+    queued = crowd.steps[:0]
+    is_behind = np.zeros(crowd.sites.size, dtype=bool)
+    for cut in cuts:
+        new = cut.behind[~is_behind[cut.behind]]
+        is_behind[new] = True
+        queued = np.sort(np.concatenate([queued, crowd.steps[new]]))
+        kernels.queue_up(queued, cut.width)
+    queued = np.sort(np.concatenate([queued, crowd.steps[~is_behind]]))
+    kernels.queue_up(queued, max(entries, 1))
+    return queued
+
+
+def _choose_gates(crowd: Crowd, cuts: list[Cut], most: int) -> NDArray[np.int32]:
+    """Return up to `most` nodes: the cut for all robots, the cuts with the longest queues, the most crowded nodes."""
+    gates = np.empty(0, dtype=np.int32)
+    for cut in cuts[-1:] + sorted(cuts[:-1], key=lambda cut: -cut.behind.size / cut.width):
+        more = np.union1d(gates, cut.nodes)
+        if more.size <= most:
+            gates = more
+    more_gates = min(most - gates.size, most // 2)
+    return np.union1d(gates, find_crowded_nodes(crowd, more_gates)) if more_gates > 3 else gates
+
+
+def entries_per_step(scenario: Scenario) -> int:
+    """Return how many robots can at most enter all destinations together in one step."""
+    layout, tessellation = scenario.area.layout, scenario.area.tessellation
+    sites = layout.cell_to_site(scenario.destinations)
+    is_destination = np.zeros(layout.size, dtype=bool)
+    is_destination[sites] = True
+    k = np.arange(tessellation.direction_count)
+    parity = (sites & 1)[:, None]
+    neighbour = sites[:, None] + layout.offset_of_direction[parity, k]
+    is_way_in = (scenario.moves[sites][:, None] >> k & 1).astype(bool) & ~is_destination[neighbour]
+    # Each way in has a name: the neighbour it comes from, or the vertex it shares with others (numbered apart).
+    name = neighbour.astype(np.int64)
+    if scenario.crossing == "forbid":
+        vertex = sites[:, None] + layout.vertex_of_direction[parity, k]
+        name = np.where(k >= tessellation.edge_count, vertex + layout.size, name)
+    name = np.where(is_way_in, name, -1)
+    name.sort(axis=1)
+    is_new = (name >= 0) & np.diff(name, axis=1, prepend=-1).astype(bool)
+    ways_of_destination = is_new.sum(axis=1)
+    if scenario.destination_capacity is not None:
+        ways_of_destination = np.minimum(ways_of_destination, scenario.destination_capacity)
+    return int(min(ways_of_destination.sum(), np.unique(name[name >= 0]).size))
+
+
+def _at_robots(n_scheme: NScheme, field: NDArray[np.int32]) -> NDArray[np.int64]:
+    """Return the values of `field` at the robots that can arrive."""
+    scenario = n_scheme.scenario
+    values = field[scenario.area.layout.cell_to_site(scenario.robots)].astype(np.int64)
+    return np.asarray(values[values != NOT_REACHED])
+
+
+def _least_cost(n_scheme: NScheme, steps: int) -> int:
+    """Return what robots must pay in all that need `steps` steps in all."""
+    scenario = n_scheme.scenario
+    cost = scenario.area.tessellation.cost_of_direction
+    return max(share * steps + _rest(n_scheme, cost - np.int32(share)) for share in _shares(scenario))
+
+
+def _shares(scenario: Scenario) -> Iterable[int]:
+    """Return what to charge for each step, see the top of the file."""
+    cost = scenario.area.tessellation.cost_of_direction
+    most = int(min(scenario.waiting_cost, cost.min()))
+    if (cost == cost[0]).all():
+        return [most]
+    # Two edge moves in place of a vertex move cost 2 e - v more and take a step more.
+    dearer = {int(2 * cost.min() - other) for other in cost}
+    return sorted({share for share in (most, most * 4 // 5, *dearer) if 0 < share <= most} or {most})
+
+
+def _rest(n_scheme: NScheme, cost: NDArray[np.int32]) -> int:
+    """Return the sum over robots of the least sum of `cost` on the way to a destination."""
+    from trihex.bounds.kernels import steps as kernels
+
+    scenario = n_scheme.scenario
+    layout = scenario.area.layout
+    if (cost == cost[0]).all():
+        return distance_bound(n_scheme).value * int(cost[0]) // scenario.area.tessellation.edge_cost
+    least = np.full(layout.size, NOT_REACHED, dtype=np.int32)
+    queue = np.empty(scenario.area.free_count + 1, dtype=np.int32)
+    is_queued = np.zeros(layout.size, dtype=bool)
+    state = np.array([0, scenario.destinations.size])
+    queue[: state[1]] = layout.cell_to_site(scenario.destinations)
+    least[queue[: state[1]]] = 0
+    while state[1]:
+        kernels.spread_costs(scenario.moves, layout.offset_of_direction, cost, least, queue, is_queued, state, _BUDGET)
+    return int(_at_robots(n_scheme, least).sum())

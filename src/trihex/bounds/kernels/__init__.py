@@ -1,0 +1,1 @@
+"""Kernels of `trihex.bounds`: see `trihex.kernels` for what they have in common."""

@@ -1,0 +1,1 @@
+"""Kernels of `trihex.fields`: see `trihex.kernels` for what they have in common."""

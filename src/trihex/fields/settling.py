@@ -1,0 +1,180 @@
+"""Settling: the fixed point of the distance rule, spread from cells whose values are known."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trihex.areas import Layout
+from trihex.errors import ScenarioError
+from trihex.fields.front import make_front_table
+from trihex.kernels.codes import NOT_REACHED
+
+_BUDGET = 1 << 16  # cells settled in one call of a kernel, about 1 ms
+_FIRST_BUDGET = 1 << 13  # enough to see how long the fronts are
+_LEAST_LIST = 1 << 12
+_THIN = 32  # cells a bucket, below which one queue is faster
+
+
+def settle(
+    distance: NDArray[np.int32],
+    layout: Layout,
+    moves: NDArray[np.uint16] | None,
+    sites: NDArray[np.int32],
+    values: NDArray[np.int32],
+    look: Callable[[int], bool] | None = None,
+) -> int:
+    """Lower `distance` in place to the fixed point that `values` at `sites` bring about.
+
+    Parameters
+    ----------
+    distance : int32 array, shape (layout.size,)
+        `NOT_REACHED`, or what is known so far, at free cells; -1 at barriers and in the padding.
+    layout : Layout
+    moves : uint16 array, shape (layout.size,), optional
+        Open moves of each site. None: all that lead to a free cell.
+    sites, values : arrays
+        Where the field spreads from, in any order.
+    look : callable, optional
+        Called now and then with the value below which all is settled; settling ends early if it returns True.
+
+    Returns
+    -------
+    int
+        All distances below it are settled; `NOT_REACHED` if all are.
+
+    Raises
+    ------
+    ScenarioError
+        If a cell is farther than 2 000 000 000 and yet can be reached.
+    """
+    from trihex.fields.kernels import buckets as kernels
+
+    tessellation = layout.tessellation
+    table, direction, slots, first = make_front_table(
+        tessellation.step_of_direction,
+        layout.offset_of_direction,
+        tessellation.cost_of_direction,
+        tessellation.edge_count,
+        moves is None,
+    )
+    is_masked = moves is not None
+    open_moves = np.empty(0, dtype=np.uint16) if moves is None else moves
+    cost = np.unique(tessellation.cost_of_direction)
+    steps = _Steps(table, direction, cost, open_moves, slots, is_masked, layout.pitch)
+    seeds, value_of_seed = _seeds(sites, values, first)
+    lists = np.empty((3, _LEAST_LIST), dtype=np.uint64)
+    state = np.zeros(kernels.STATE_SIZE, dtype=np.int64)
+    kernel = kernels.make_settle(slots, is_masked)
+    budget, in_queue = _FIRST_BUDGET, layout.height * layout.width
+    while True:
+        start = int(state[kernels.BUCKET_END])
+        kernel(
+            state, lists.reshape(-1), seeds, value_of_seed, table, direction, cost, open_moves, distance,
+            layout.pitch, budget,
+        )  # fmt: skip
+        end = int(state[kernels.BUCKET_END])
+        if state[kernels.REASON] == kernels.DONE:
+            return NOT_REACHED
+        if state[kernels.REASON] == kernels.TOO_FAR:
+            raise ScenarioError(f"distances must stay below {kernels.FARTHEST}; a cell that can be reached is farther")
+        if state[kernels.REASON] == kernels.LISTS_FULL:
+            lists = np.concatenate([lists, np.empty_like(lists)], axis=1)
+        if look is not None and look(end):
+            return end
+        are_thin = state[kernels.REASON] == kernels.GO_ON and budget * cost[0] < _THIN * (end - start)
+        if are_thin and state[kernels.SEED] == len(seeds) and in_queue > 0 and end < kernels.FARTHEST // 2:
+            entries, expanded, horizon = _spread(steps, distance, _waiting(state, lists), look, in_queue)
+            if entries.size == 0 or horizon is not None:
+                return NOT_REACHED if horizon is None else horizon
+            in_queue -= expanded
+            seeds, value_of_seed = _sorted(entries, distance)
+            state[:] = 0
+        budget = _BUDGET
+
+
+@dataclass(frozen=True)
+class _Steps:
+    """What both kernels are told of the moves, see `trihex.fields.kernels.buckets.make_settle`."""
+
+    table: NDArray[np.uint64]
+    direction: NDArray[np.uint64]
+    cost: NDArray[np.int32]
+    open_moves: NDArray[np.uint16]
+    slots: tuple[int, ...]
+    is_masked: bool
+    pitch: int
+
+
+def _spread(
+    steps: _Steps,
+    distance: NDArray[np.int32],
+    entries: NDArray[np.uint64],
+    look: Callable[[int], bool] | None,
+    most: int,
+) -> tuple[NDArray[np.uint64], int, int | None]:
+    """Spread from `entries` through one queue for as long as it is short.
+
+    Where ways of few moves cost more than others of many, the queue expands cells again and again; so it gives up
+    after about `most` of them, all that there are.
+
+    Returns
+    -------
+    entries, expanded, horizon
+        What waits now, how many entries were expanded, and what is settled if `look` put an end to it.
+    """
+    from trihex.fields.kernels import buckets as fields
+    from trihex.fields.kernels import queue as kernels
+
+    kernel = kernels.make_spread(steps.slots, steps.is_masked)
+    queue = np.empty(max(kernels.QUEUE_SIZE, 2 * entries.size), dtype=np.uint64)
+    queue[: entries.size] = entries
+    state = np.zeros(kernels.STATE_SIZE, dtype=np.int64)
+    state[kernels.TAIL] = entries.size
+    expanded = 0
+    while True:
+        kernel(state, queue, steps.table, steps.direction, steps.cost, steps.open_moves, distance, steps.pitch, _BUDGET)
+        expanded += _BUDGET
+        entries = queue[state[kernels.AT] : state[kernels.TAIL]]
+        if entries.size == 0:
+            return entries, expanded, None
+        values = distance[entries & np.uint64(2**32 - 1)]
+        horizon = int(values.min())
+        if look is not None and look(horizon):
+            return entries, expanded, horizon
+        # Far from the least distance that is too far, so that no sum in this kernel overflows.
+        if state[kernels.REASON] == kernels.QUEUE_FULL or expanded >= most or values.max() > fields.FARTHEST // 2:
+            return entries, expanded, None
+
+
+def _waiting(state: NDArray[np.int64], lists: NDArray[np.uint64]) -> NDArray[np.uint64]:
+    """Return the entries that wait in the three lists, in the order of their turns."""
+    from trihex.fields.kernels import buckets as kernels
+
+    turns = [(state[kernels.LIST] + turn) % 3 for turn in range(3)]
+    starts = (state[kernels.AT], 0, 0)
+    return np.concatenate([lists[turns[turn], starts[turn] : state[kernels.COUNT + turn]] for turn in range(3)])
+
+
+def _sorted(entries: NDArray[np.uint64], distance: NDArray[np.int32]) -> tuple[NDArray[np.uint64], NDArray[np.int32]]:
+    """Return entries with the distances of their sites, ascending."""
+    values = distance[entries & np.uint64(2**32 - 1)]
+    order = np.argsort(values, kind="stable")
+    return entries[order], values[order]
+
+
+def _seeds(
+    sites: NDArray[np.int32], values: NDArray[np.int32], first: tuple[list[int], list[int]]
+) -> tuple[NDArray[np.uint64], NDArray[np.int32]]:
+    """Return the entries that try all moves from `sites`, with their values, ascending."""
+    order = np.argsort(values, kind="stable")
+    sites, values = sites[order].astype(np.int64), values[order].astype(np.int32)
+    if first[0] == first[1]:
+        rows = np.asarray(first[0], dtype=np.int64)
+    else:  # both orientations have equally many, one list being the mirror image of the other
+        rows = np.asarray(first, dtype=np.int64)[sites & 1]
+    entries = sites[:, None] + (rows << 32)
+    return entries.reshape(-1).astype(np.uint64), np.repeat(values, entries.shape[1])

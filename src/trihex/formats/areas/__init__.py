@@ -1,0 +1,1 @@
+"""Areas: a module for each format in which areas are read or written."""

@@ -1,0 +1,141 @@
+"""GeoJSON: places as polygons in metres, with obstacles, destinations and robots; and plans as lines."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator
+from typing import Any
+
+from trihex.areas import import_shapely
+from trihex.areas.coverage import Progress
+from trihex.errors import FormatError, check_choice
+from trihex.files import check_text, new_file
+from trihex.formats.areas.options import AreaOptions
+from trihex.formats.areas.polygons import Place, draft_of_place
+from trihex.formats.draft import Draft
+from trihex.formats.tracks.tracks import Tracks
+
+MAX_BYTES = 2**26  # json takes some 30 times as much while it reads
+KINDS = ("free", "obstacle", "destination", "robot")
+_TYPES = ("Point", "MultiPoint", "LineString", "MultiLineString", "Polygon", "MultiPolygon", "GeometryCollection")
+
+
+def parse_geojson(
+    content: bytes, path: str | os.PathLike[str], options: AreaOptions, progress: Progress | None
+) -> Draft:
+    """Return the area that covers what the file draws, and its destinations and robots if it has some.
+
+    Coordinates are metres, x to the east and y to the north. The property ``kind`` of a feature tells what it is: free
+    (the default of polygons), obstacle, destination or robot (points). All that is not free is occupied.
+
+    Raises
+    ------
+    FormatError
+        If the file is no GeoJSON, a geometry is invalid, or nothing is free.
+    MissingExtraError
+        If shapely is not installed.
+    """
+    shapely = import_shapely()
+    if len(content) > MAX_BYTES:
+        raise FormatError(f"{path}: must be at most {MAX_BYTES} bytes long, not {len(content)}")
+    try:
+        document = json.loads(check_text(content, path))
+    except RecursionError:
+        raise FormatError(f"{path}: is nested too deeply") from None
+    except FormatError:
+        raise
+    except ValueError as error:
+        raise FormatError(f"{path}: is no JSON: {error}") from None
+    parts: dict[str, list[Any]] = {kind: [] for kind in KINDS}
+    for where, geometry, kind in _features(document, str(path)):
+        for leaf in _leaves(geometry, where):
+            shape = shapely.force_2d(_shape(leaf, where))
+            is_area = leaf["type"].endswith("Polygon")
+            if kind is None and not is_area:
+                raise FormatError(f"{where}: a {leaf['type']} must have the property kind: one of {', '.join(KINDS)}")
+            own = kind or "free"
+            if (own == "free" and not is_area) or (own == "robot" and not leaf["type"].endswith("Point")):
+                must = "a polygon" if own == "free" else "a point"
+                raise FormatError(f"{where}: what is {own!r} must be {must}, not a {leaf['type']}")
+            parts[own].append(shape)
+    return draft_of_place(Place(path, **parts), options, progress)
+
+
+def _features(document: Any, path: str) -> Iterator[tuple[str, Any, str | None]]:
+    """Yield where it stands, geometry and kind of each feature."""
+    if not isinstance(document, dict):
+        raise FormatError(f"{path}: GeoJSON must be an object, not {type(document).__name__}")
+    features = document.get("features") if document.get("type") == "FeatureCollection" else [document]
+    if not isinstance(features, list):
+        raise FormatError(f"{path}: features must be a list, not {type(features).__name__}")
+    for number, feature in enumerate(features):
+        where = f"{path}: feature {number}"
+        if not isinstance(feature, dict):
+            raise FormatError(f"{where}: must be an object, not {feature!r:.40}")
+        if feature.get("type") != "Feature":
+            yield where, feature, None
+            continue
+        properties = feature.get("properties")
+        kind = properties.get("kind") if isinstance(properties, dict) else None
+        if kind is not None:
+            check_choice(f"{where}: kind", kind, KINDS, FormatError)
+        if feature.get("geometry") is not None:
+            yield where, feature["geometry"], kind
+
+
+def _leaves(geometry: Any, where: str) -> Iterator[dict[str, Any]]:
+    """Yield the geometries that are no collections."""
+    waiting = [geometry]
+    while waiting:
+        one = waiting.pop()
+        if not isinstance(one, dict):
+            raise FormatError(f"{where}: a geometry must be an object, not {one!r:.40}")
+        if one.get("type") == "GeometryCollection" and isinstance(one.get("geometries"), list):
+            waiting += one["geometries"][::-1]
+        else:
+            check_choice(f"{where}: type", one.get("type"), _TYPES, FormatError)
+            yield one
+
+
+def _shape(leaf: dict[str, Any], where: str) -> Any:
+    """Return the geometry of shapely; GEOS looks at the coordinates itself."""
+    import shapely
+
+    try:
+        return shapely.from_geojson(json.dumps({"type": leaf["type"], "coordinates": leaf.get("coordinates")}))
+    except (shapely.errors.ShapelyError, ValueError, RecursionError) as error:
+        reason = "coordinates must be finite numbers in lists as deep as its type asks for"
+        if "closed linestring" in str(error):
+            reason = "a ring must end where it begins"
+        elif str(error).startswith("IllegalArgumentException: "):
+            reason = str(error).partition(": ")[2]
+        raise FormatError(f"{where}: is no {leaf['type']}: {reason}") from None
+
+
+def write_geojson(tracks: Tracks, path: str | os.PathLike[str]) -> None:
+    """Write a feature for each robot: a LineString of its places in metres, step by step; a Point if it has but one.
+
+    Properties: kind `track`, robot, arrived, and times, the seconds of the places.
+    """
+    with new_file(path) as part, open(part, "w", encoding="ascii", newline="\n") as file:
+        file.write('{"type": "FeatureCollection", "features": [\n')
+        for robot in range(tracks.robot_count):
+            rows = tracks.rows_of(robot)
+            places = [list(place) for place in zip(tracks.x[rows].tolist(), tracks.y[rows].tolist(), strict=True)]
+            is_line = len(places) > 1
+            feature = {
+                "type": "Feature",
+                "geometry": {
+                    "type": "LineString" if is_line else "Point",
+                    "coordinates": places if is_line else places[0],
+                },
+                "properties": {
+                    "kind": "track",
+                    "robot": robot,
+                    "arrived": bool(tracks.arrived[robot]),
+                    "times": tracks.seconds[rows].tolist(),
+                },
+            }
+            file.write(json.dumps(feature) + (",\n" if robot + 1 < tracks.robot_count else "\n"))
+        file.write("]}\n")

@@ -1,0 +1,138 @@
+"""Image: dark pixels are barriers, one cell each, or occupied squares of a place measured in metres."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from io import BytesIO
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trihex.areas import Area, Frame, Ground, cover_raster
+from trihex.areas.coverage import Progress
+from trihex.errors import FormatError, check_choice
+from trihex.files import new_file
+from trihex.formats.areas.options import AreaOptions
+from trihex.formats.draft import Draft
+
+# Pillow's names. No TIFF: its library writes what it thinks of a file to stderr.
+KINDS = ("PNG", "PPM", "BMP", "GIF", "JPEG")
+SUFFIXES = (".png", ".pgm", ".bmp")
+# What a small file may claim to unpack to: as much as 10 000 x 10 000.
+MAX_PIXELS = 10**8
+_ROWS_AT_ONCE = 256
+
+
+def read_pixels(content: bytes, path: object) -> tuple[NDArray[np.uint8], NDArray[np.bool_]]:
+    """Return the brightness of each pixel, 0 to 255, and whether it is opaque, shape (rows, columns) each.
+
+    Colours count as the mean of red, green and blue.
+
+    Raises
+    ------
+    FormatError
+        If the image is damaged, of an unknown kind or too large.
+    """
+    from PIL import Image, UnidentifiedImageError
+
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # Pillow warns of size and of small damage: the first is judged here
+            with Image.open(BytesIO(content), formats=KINDS) as image:
+                width, height = image.size
+                if width * height > MAX_PIXELS:
+                    raise FormatError(f"{path}: an image may have at most {MAX_PIXELS} pixels, not {width} x {height}")
+                image.load()
+                return _grey(image)
+    except FormatError:
+        raise
+    except UnidentifiedImageError:
+        raise FormatError(f"{path}: is no image that trihex reads ({', '.join(KINDS)})") from None
+    except Image.DecompressionBombError:
+        raise FormatError(f"{path}: an image may have at most {MAX_PIXELS} pixels") from None
+    except MemoryError:
+        raise
+    except Exception as error:  # decoders raise whatever they stumble on: struct.error, KeyError, zlib.error, ...
+        raise FormatError(f"{path}: the image is damaged: {str(error) or type(error).__name__}") from None
+
+
+def _grey(image: object) -> tuple[NDArray[np.uint8], NDArray[np.bool_]]:
+    from PIL import Image
+
+    assert isinstance(image, Image.Image)
+    if image.mode.startswith("I") or image.mode == "F":  # 16 bits a pixel
+        values = np.asarray(image).astype(np.float64)
+        return np.clip(np.round(values / 257), 0, 255).astype(np.uint8), np.ones(values.shape, dtype=bool)
+    if image.mode in ("1", "L"):
+        return np.asarray(image.convert("L")), np.ones((image.height, image.width), dtype=bool)
+    grey = np.empty((image.height, image.width), dtype=np.uint8)
+    is_opaque = np.empty(grey.shape, dtype=bool)
+    for top in range(0, image.height, _ROWS_AT_ONCE):  # four bytes a pixel, for some rows only
+        rows = slice(top, min(top + _ROWS_AT_ONCE, image.height))
+        colours = np.asarray(image.crop((0, rows.start, image.width, rows.stop)).convert("RGBA"))
+        grey[rows] = np.round(colours[..., :3].sum(axis=2, dtype=np.uint16) / 3)
+        is_opaque[rows] = colours[..., 3] == 255
+    return grey, is_opaque
+
+
+def parse_image(content: bytes, path: str | os.PathLike[str], options: AreaOptions, progress: Progress | None) -> Draft:
+    """Return the area of an image: a cell for each pixel, or cells of a size if the options have one.
+
+    With a cell size the lower left corner of the image lies at (0, 0) metres. Transparent pixels count as bright.
+
+    Raises
+    ------
+    FormatError
+        If the image cannot be read, or there is a cell size but no resolution.
+    """
+    grey, is_opaque = read_pixels(content, path)
+    is_free = np.where(is_opaque, grey, 255) >= options.threshold * 255
+    occupied = is_free if options.invert else ~is_free
+    name = Path(path).stem
+    if options.cell_size is None:
+        if options.robot_radius or options.resolution is not None:
+            raise FormatError(f"{path}: robot_radius and resolution need cell_size, the edge step of a cell in metres")
+        return Draft(Area(options.tessellation, occupied, name))
+    if options.resolution is None:
+        raise FormatError(
+            f"{path}: an image has no measure: say how many metres a pixel is wide, resolution 0.05 for five "
+            "centimetres (--resolution on the command line)"
+        )
+    covering = options.covering_of(path, "an image")
+    area = cover_raster(
+        occupied,
+        covering,
+        resolution=options.resolution,
+        origin=(0.0, occupied.shape[0] * options.resolution),
+        is_outside_occupied=options.unknown == "barrier",
+        name=name,
+        progress=progress,
+    )
+    return Draft(area, ground=Ground(occupied, options.resolution / covering.cell_size))
+
+
+def write_image(area: Area, path: str | os.PathLike[str]) -> None:
+    """Write an area as an image of a pixel for each cell: barriers black, all else white; tessellation is not kept.
+
+    Raises
+    ------
+    FormatError
+        If the area has a frame, which an image cannot carry.
+    """
+    from PIL import Image
+
+    suffix = check_choice(f"{path}: the suffix of an image", Path(path).suffix.lower(), SUFFIXES, FormatError)
+    refuse_frame(area.frame, path)
+    with new_file(path) as part, open(part, "wb") as file:
+        pixels = np.where(area.barriers, 0, 255).astype(np.uint8)
+        Image.fromarray(pixels).save(file, format={".png": "PNG", ".pgm": "PPM", ".bmp": "BMP"}[suffix])
+
+
+def refuse_frame(frame: Frame | None, path: object) -> None:
+    """Raise FormatError if there is a frame, for formats that have one cell for each letter or pixel."""
+    if frame is not None:
+        raise FormatError(
+            f"{path}: the area lies in the world in metres, which this format cannot carry; write a scenario (.toml)"
+        )

@@ -1,0 +1,65 @@
+"""Options: what a file of a real place leaves open, such as the size of cells and what unknown ground is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from trihex.areas import Covering, Tessellation
+from trihex.errors import FormatError, check_choice
+from trihex.record import Record
+
+UNKNOWNS = ("barrier", "free")
+
+
+@dataclass(frozen=True, eq=False)
+class AreaOptions(Record):
+    """How the file of an area is to be read.
+
+    Parameters
+    ----------
+    tessellation : Tessellation or str
+    cell_size : float, optional
+        Edge step in metres. ROS maps, GeoJSON and WKT need it; images need it or have one cell for each pixel; for
+        ``.map`` and ``.txt``, one cell for each letter, it only says how large a cell is.
+    robot_radius : float
+        In metres; how far robots are to keep from what is occupied, and half of how far from each other.
+    unknown : {"barrier", "free"}
+        What ground is that a ROS map does not know, and all that lies outside a ROS map or an image.
+    threshold : float
+        From which brightness on a pixel of an image is free, 0 to 1.
+    invert : bool
+        In images, dark pixels are free and bright ones occupied.
+    resolution : float, optional
+        Metres for each pixel of an image. ROS maps bring their own.
+
+    Raises
+    ------
+    FormatError
+        If a value does not exist or is out of range.
+    """
+
+    tessellation: Tessellation
+    cell_size: float | None = None
+    robot_radius: float = 0.0
+    unknown: str = "barrier"
+    threshold: float = 0.5
+    invert: bool = False
+    resolution: float | None = None
+
+    def __post_init__(self) -> None:
+        if isinstance(self.tessellation, str):
+            self._set("tessellation", Tessellation(self.tessellation))
+        check_choice("unknown", self.unknown, UNKNOWNS, FormatError)
+        if not 0 <= self.threshold <= 1:
+            raise FormatError(f"threshold must be between 0 and 1, not {self.threshold:g}")
+        if self.resolution is not None and not 1e-9 <= self.resolution <= 1e9:
+            raise FormatError(f"resolution must be between 1e-9 and 1e9 metres, not {self.resolution:g}")
+
+    def covering_of(self, path: object, kind: str) -> Covering:
+        """Return how to cover a place that is measured in metres; raise FormatError if there is no cell size."""
+        if self.cell_size is None:
+            raise FormatError(
+                f"{path}: {kind} is measured in metres: say how far apart the centres of neighbouring cells shall be, "
+                "cell_size 0.5 for half a metre (--cell-size on the command line)"
+            )
+        return Covering(self.tessellation, self.cell_size, self.robot_radius)

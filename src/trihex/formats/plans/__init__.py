@@ -1,0 +1,1 @@
+"""Plans: a module for each format of plans."""

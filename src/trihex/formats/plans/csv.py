@@ -1,0 +1,201 @@
+"""Plan as CSV: one row for each robot and step, from 0 to its arrival."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trihex.areas import Scenario, Tessellation
+from trihex.errors import FormatError
+from trihex.files import check_text, new_file, read_bytes
+from trihex.formats.starts.csv import check_inside
+from trihex.formats.table import letters_of_words, parse_table
+from trihex.kernels.codes import JUMP, WAIT
+from trihex.plans import Plan
+
+HEADER = "robot,step,x,y,action,time"
+_BUFFER = 4 << 20  # bytes that the kernel fills in one call, some 10 ms
+
+
+def words_of_actions(tessellation: Tessellation) -> list[str]:
+    """Return the words of the column `action`; a table holds their indexes."""
+    north, south = tessellation.direction_names
+    return [*north, *south, "start", "wait", "jump"]
+
+
+def write_plan_csv(
+    plan: Plan, path: str | os.PathLike[str], *, progress: Callable[[int, int], None] | None = None
+) -> None:
+    """Write header `robot,step,x,y,action,time` and a row for each robot and step.
+
+    x, y is the cell after the step, time the running t_r. A robot that cannot arrive, or starts on a destination, has
+    its row of step 0 only. Area, destinations and rules are not kept: whoever reads the file must name them again.
+    """
+    from trihex.formats.kernels import table_text
+
+    area, tessellation = plan.scenario.area, plan.scenario.area.tessellation
+    state = np.zeros(5, dtype=np.int64)
+    text = np.empty(_BUFFER, dtype=np.uint8)
+    with new_file(path) as part, open(part, "wb") as file:
+        file.write(f"{HEADER}\n".encode())
+        length = -1
+        while length:
+            length = table_text.write_plan_rows(
+                area.layout.cell_to_site(plan.scenario.robots),
+                plan.actions,
+                plan.first_action,
+                area.layout.offset_of_direction,
+                tessellation.cost_of_direction,
+                plan.scenario.waiting_cost,
+                *plan.jump_tables,
+                area.layout.origin,
+                area.layout.pitch,
+                *letters_of_words(words_of_actions(tessellation)),
+                state,
+                text,
+            )
+            file.write(text[:length].data)
+            if progress is not None:
+                progress(int(state[0]), plan.scenario.robot_count)
+
+
+def read_plan_csv(
+    path: str | os.PathLike[str],
+    scenario: Scenario,
+    content: bytes | None = None,
+    *,
+    progress: Callable[[int, int], None] | None = None,
+) -> Plan:
+    """Return the plan that a CSV file holds for the area, the destinations and the rules of `scenario`.
+
+    The robots are those of the file; those of `scenario` are not looked at. Rows may come in any order. A row whose
+    action does not lead from the robot's last cell to this one becomes `JUMP`, which no audit lets pass.
+
+    Parameters
+    ----------
+    path : path
+    scenario : Scenario
+    content : bytes, optional
+        The content, where it has been read already.
+    progress : callable, optional
+        Called with (rows read, all rows).
+
+    Raises
+    ------
+    FormatError
+        If a line is not of the form, a cell lies outside the area, a robot or step is missing or there twice, or a
+        time does not follow from the moves at the costs of `scenario`; the message names the line.
+    OSError
+        If the file cannot be read.
+    """
+    text = check_text(read_bytes(path) if content is None else content, path)
+    words = words_of_actions(scenario.area.tessellation)
+    table = parse_table(text, path, HEADER, {"action": words}, progress)
+    return plan_of_table(table, scenario, path)
+
+
+def plan_of_table(table: NDArray[np.int64], scenario: Scenario, path: object) -> Plan:
+    """Return the plan that a table of the columns of `HEADER` holds, shape (6, rows); see `read_plan_csv`."""
+    area, tessellation = scenario.area, scenario.area.tessellation
+    words = words_of_actions(tessellation)
+    check_inside(table[2], table[3], area, path)
+    line = np.arange(2, table.shape[1] + 2)
+    order = _order(table)
+    if order is not None:
+        table, line = table[:, order], line[order]
+    robot, step, x, y, word, time = table
+    is_start = _check_steps(robot, step, line, path)
+
+    start, wait = len(words) - 3, len(words) - 2
+    _check_rows(
+        is_start != (word == start), "action must be 'start' at step 0, and only there", words, word, line, path
+    )
+    _check_rows(is_start & (time != 0), "time must be 0 at step 0", time, time, line, path)
+    actions, cost = _actions(tessellation, x, y, word, wait)
+    wrong = (
+        ~is_start
+        & (actions != JUMP)
+        & (np.diff(time, prepend=0) != np.where(actions == WAIT, scenario.waiting_cost, cost))
+    )
+    if wrong.any():
+        row = int(np.argmax(wrong))
+        right = scenario.waiting_cost if actions[row] == WAIT else cost[row]
+        raise FormatError(
+            f"{path}: line {line[row]}: time must rise by {right} for {words[word[row]]!r}, not by "
+            f"{time[row] - time[row - 1]}; the plan was made with other costs or another waiting cost"
+        )
+    own = actions[~is_start]
+    jumps = np.flatnonzero(own == JUMP)
+    cells = y * area.width + x
+    firsts = np.flatnonzero(is_start)
+    return Plan(
+        scenario.with_robots(cells[is_start]),
+        own,
+        np.append(firsts - np.arange(firsts.size), own.size),
+        jumps=np.stack([jumps, cells[~is_start][jumps]], axis=1),
+    )
+
+
+def _order(table: NDArray[np.int64]) -> NDArray[np.int64] | None:
+    """Return the order of the rows by robot and step, None if they have it."""
+    robot, step = table[0], table[1]
+    rises = (robot[1:] > robot[:-1]) | ((robot[1:] == robot[:-1]) & (step[1:] > step[:-1]))
+    return None if rises.all() else np.lexsort((step, robot))
+
+
+def _check_steps(
+    robot: NDArray[np.int64], step: NDArray[np.int64], line: NDArray[np.int64], path: object
+) -> NDArray[np.bool_]:
+    """Return which rows begin a robot; raise unless robots count up from 0, and the steps of each do."""
+    before_robot, before_step = np.append(-1, robot[:-1]), np.append(-1, step[:-1])
+    begins = np.asarray(robot != before_robot)
+    begins[:1] = True
+    wrong = np.where(begins, (robot != before_robot + 1) | (step != 0), step != before_step + 1)
+    if not wrong.any():
+        return begins
+    row = int(np.argmax(wrong))
+    where = f"{path}: line {line[row]}"
+    if begins[row] and robot[row] != before_robot[row] + 1:
+        raise FormatError(
+            f"{where}: robots must be numbered 0, 1, 2, ...; robot {before_robot[row] + 1} must come next, "
+            f"not {robot[row]}"
+        )
+    if begins[row]:
+        raise FormatError(f"{where}: robot {robot[row]} must begin with step 0, not {step[row]}")
+    if step[row] == before_step[row]:
+        raise FormatError(f"{where}: robot {robot[row]} has step {step[row]} twice")
+    raise FormatError(f"{where}: robot {robot[row]} lacks step {before_step[row] + 1}; here is step {step[row]}")
+
+
+def _actions(
+    tessellation: Tessellation, x: NDArray[np.int64], y: NDArray[np.int64], word: NDArray[np.int64], wait: int
+) -> tuple[NDArray[np.uint8], NDArray[np.int64]]:
+    """Return the action of each row, `JUMP` if word and cells disagree, and the cost of the move (a wait costs 0)."""
+    from_x, from_y = np.append(x[:1], x[:-1]), np.append(y[:1], y[:-1])
+    orientation = tessellation.orientation_of_cell(from_x, from_y)
+    # What a name means depends on the cell that is left.
+    number_of_name = [{name: k for k, name in enumerate(names)} for names in tessellation.direction_names]
+    direction_of_word = np.array(
+        [[number.get(name, JUMP) for name in words_of_actions(tessellation)] for number in number_of_name],
+        dtype=np.uint8,
+    )
+    direction_of_word[:, wait] = WAIT
+    actions = direction_of_word[orientation, word]
+    steps = np.concatenate([tessellation.step_of_direction, np.zeros((2, WAIT, 2), dtype=np.int32)], axis=1)
+    step = steps[orientation, actions]
+    actions[(step[:, 0] != x - from_x) | (step[:, 1] != y - from_y)] = JUMP
+    cost = np.zeros(WAIT + 1, dtype=np.int64)
+    cost[: tessellation.direction_count] = tessellation.cost_of_direction
+    return actions, cost[actions]
+
+
+def _check_rows(
+    wrong: NDArray[np.bool_], rule: str, names: object, value: NDArray[np.int64], line: NDArray[np.int64], path: object
+) -> None:
+    if wrong.any():
+        row = int(np.argmax(wrong))
+        shown = names[value[row]] if isinstance(names, list) else int(value[row])
+        raise FormatError(f"{path}: line {line[row]}: {rule}, not {shown!r}")

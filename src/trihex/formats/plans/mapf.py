@@ -1,0 +1,31 @@
+"""MAPF: plans on squares as text for mapf-visualizer, a line of cells for each step."""
+
+from __future__ import annotations
+
+import os
+
+import numpy as np
+
+from trihex.errors import FormatError
+from trihex.files import new_file
+from trihex.plans import Plan
+
+
+def write_mapf(plan: Plan, path: str | os.PathLike[str]) -> None:
+    """Write lines ``step:(x,y),(x,y),...,`` with the cell of each robot, (0, 0) in the north-west.
+
+    The format knows no robots that leave: one that has arrived repeats its destination.
+
+    Raises
+    ------
+    FormatError
+        If the cells are no squares.
+    """
+    area = plan.scenario.area
+    if area.tessellation.name != "square":
+        raise FormatError(f"{path}: mapf-visualizer draws squares only; the plan is {area.tessellation.name}")
+    with new_file(path) as part, open(part, "w", encoding="ascii", newline="\n") as file:
+        for step, cells in enumerate(plan.cells_by_step()):
+            x, y = area.cell_to_xy(np.where(cells < 0, plan.last_cell_of_robot, cells))
+            places = "".join(f"({one},{other})," for one, other in zip(x.tolist(), y.tolist(), strict=True))
+            file.write(f"{step}:{places}\n")

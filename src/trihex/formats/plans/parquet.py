@@ -1,0 +1,141 @@
+"""Plan as Parquet: the columns of the CSV, for pandas, polars and all that read Arrow."""
+
+from __future__ import annotations
+
+import os
+from io import BytesIO
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trihex.areas import Scenario
+from trihex.errors import FormatError, MissingExtraError, check_choice
+from trihex.files import new_file, read_bytes
+from trihex.formats.plans.csv import HEADER, plan_of_table, words_of_actions
+from trihex.formats.tracks.tracks import cells_of_rows
+from trihex.kernels.codes import JUMP, WAIT
+from trihex.plans import Plan
+
+# What a file may unpack to: rows take 48 bytes and more while they are read.
+MAX_ROWS = 10**8
+MAX_UNPACKED = 2**32
+
+
+def write_plan_parquet(plan: Plan, path: str | os.PathLike[str]) -> None:
+    """Write a row for each robot and step: robot, step, x, y (int64), action (words), time (int64).
+
+    Area, destinations and rules are not kept, as in CSV.
+
+    Raises
+    ------
+    MissingExtraError
+        If pyarrow is not installed.
+    """
+    arrow, parquet = _import_pyarrow()
+    area, tessellation = plan.scenario.area, plan.scenario.area.tessellation
+    length = np.diff(plan.first_action)
+    first_row = np.concatenate([[0], np.cumsum(length + 1)])
+    cells = cells_of_rows(plan, first_row)
+    x, y = area.cell_to_xy(cells)
+    robot = np.repeat(np.arange(length.size), length + 1)
+    is_start = np.zeros(cells.size, dtype=bool)
+    is_start[first_row[:-1]] = True
+    words = words_of_actions(tessellation)
+    before = np.append(cells[:1], cells[:-1])
+    orientation = tessellation.orientation_of_cell(*area.cell_to_xy(before))
+    word_of_action = np.arange(WAIT + 1)
+    word_of_action[[WAIT, JUMP]] = len(words) - 2, len(words) - 1
+    cost_of_action = np.zeros(WAIT + 1, dtype=np.int64)
+    cost_of_action[: tessellation.direction_count] = tessellation.cost_of_direction
+    cost_of_action[WAIT] = plan.scenario.waiting_cost
+    word = np.full(cells.size, len(words) - 3)
+    word[~is_start] = word_of_action[plan.actions]
+    is_move = word < tessellation.direction_count
+    word[is_move] += orientation[is_move] * tessellation.direction_count
+    cost = np.zeros(cells.size, dtype=np.int64)
+    cost[~is_start] = cost_of_action[plan.actions]
+    total = np.cumsum(cost)
+    # A word of a triangle that points south may be one of those that point north, too: each is kept once.
+    distinct = list(dict.fromkeys(words))
+    index = np.array([distinct.index(one) for one in words], dtype=np.int32)
+    table = arrow.table(
+        {
+            "robot": robot,
+            "step": np.arange(cells.size) - first_row[robot],
+            "x": x,
+            "y": y,
+            "action": arrow.DictionaryArray.from_arrays(index[word], distinct),
+            "time": total - total[first_row[:-1][robot]],
+        }
+    )
+    with new_file(path) as part:
+        parquet.write_table(table, part, compression="zstd")
+
+
+def read_plan_parquet(path: str | os.PathLike[str], scenario: Scenario, content: bytes | None = None) -> Plan:
+    """Return the plan of a Parquet file with the columns of the CSV; see `read_plan_csv`.
+
+    Raises
+    ------
+    FormatError
+        If the file is damaged or too large, a column is missing, or its rows make no plan.
+    MissingExtraError
+        If pyarrow is not installed.
+    OSError
+        If the file cannot be read.
+    """
+    arrow, parquet = _import_pyarrow()
+    content = read_bytes(path) if content is None else content
+    names = HEADER.split(",")
+    try:
+        with parquet.ParquetFile(BytesIO(content)) as file:
+            _check_metadata(file, path)
+            columns = file.read(columns=names)
+        text = columns["action"].cast(arrow.string())
+        numbers = {name: columns[name].cast(arrow.int64()) for name in names if name != "action"}
+    except (arrow.ArrowException, OSError, ValueError, RuntimeError) as error:
+        if isinstance(error, FormatError):
+            raise
+        raise FormatError(f"{path}: is no whole Parquet file of a plan: {str(error).splitlines()[0]:.100}") from None
+    for name in names:
+        if columns[name].null_count:
+            raise FormatError(f"{path}: column {name} must have a value in each row")
+    words = _indexes(text, words_of_actions(scenario.area.tessellation), path)
+    table = np.stack([words if name == "action" else numbers[name].to_numpy() for name in names])
+    return plan_of_table(table, scenario, f"{path} (as CSV)")
+
+
+def _check_metadata(file: Any, path: object) -> None:
+    """Raise FormatError unless each column is there once, and not too much to unpack."""
+    rows, groups = file.metadata.num_rows, file.metadata.num_row_groups
+    unpacked = sum(file.metadata.row_group(group).total_byte_size for group in range(groups))
+    if not (0 <= rows <= MAX_ROWS and 0 <= unpacked <= MAX_UNPACKED):
+        raise FormatError(
+            f"{path}: may have at most {MAX_ROWS} rows and {MAX_UNPACKED} bytes, not {rows} and {unpacked}"
+        )
+    names = file.schema_arrow.names
+    for name in HEADER.split(","):
+        if names.count(name) != 1:
+            raise FormatError(f"{path}: there must be one column {name!r}; the columns are {', '.join(names):.100}")
+
+
+def _indexes(column: Any, words: list[str], path: object) -> NDArray[np.int64]:
+    """Return the index in `words` of each entry of a column of text."""
+    encoded = column.dictionary_encode().unify_dictionaries().combine_chunks()
+    index_of_word = {word: index for index, word in reversed(list(enumerate(words)))}
+    known = encoded.dictionary.to_pylist()
+    for word in known:
+        check_choice(f"{path}: action", word, dict.fromkeys(words), FormatError)
+    index = np.array([index_of_word[word] for word in known], dtype=np.int64)
+    return np.asarray(index[encoded.indices.to_numpy()])
+
+
+def _import_pyarrow() -> tuple[ModuleType, ModuleType]:
+    try:
+        import pyarrow
+        import pyarrow.parquet
+    except ImportError:
+        raise MissingExtraError("Parquet needs pyarrow: pip install 'trihex[io]'") from None
+    return pyarrow, pyarrow.parquet

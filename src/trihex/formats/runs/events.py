@@ -1,0 +1,127 @@
+"""Events: what will happen at which step, as CSV or TOML."""
+
+from __future__ import annotations
+
+import csv
+import os
+from pathlib import Path
+from typing import Annotated, Any
+
+from pydantic import Field
+
+from trihex.errors import FormatError, TrihexError, check_choice
+from trihex.files import check_text, new_file, read_bytes, suffix_of
+from trihex.formats.schema import Table, check_document, choice
+from trihex.formats.toml import complaint, parse_toml
+from trihex.running import KINDS, MOST_STEPS, Event
+
+SUFFIXES = (".csv", ".toml")
+COLUMNS = ("step", "event", "x", "y", "to_x", "to_y", "robot", "steps")
+MAX_BYTES = 2**26
+
+_Step = Annotated[int, Field(ge=1, le=MOST_STEPS)]
+_Cell = Annotated[list[Annotated[int, Field(ge=-(2**30), le=2**30)]], Field(min_length=2, max_length=2)]
+
+
+class EventTable(Table):
+    """[[event]]: one event."""
+
+    step: _Step
+    event: Annotated[str, choice("it", tuple(KINDS))]
+    cell: _Cell | None = None
+    to: _Cell | None = None
+    robot: Annotated[int, Field(ge=0, le=MOST_STEPS)] | None = None
+    steps: _Step | None = None
+
+
+class EventsTable(Table):
+    """The whole file."""
+
+    event: list[EventTable] = Field(default_factory=list)
+
+
+def read_events(path: str | os.PathLike[str]) -> tuple[Event, ...]:
+    """Return the events of a file, in its order.
+
+    CSV has a header with `step`, `event` and those of `x`, `y`, `to_x`, `to_y`, `robot`, `steps` that are needed, in
+    any order; what an event does not need stays empty. TOML has a table ``[[event]]`` for each, with the keys `step`,
+    `event` and `cell`, `to` (each ``[x, y]``), `robot`, `steps`.
+
+    Raises
+    ------
+    FormatError
+        If the file is none of these, or says something that is no event.
+    OSError
+        If it cannot be read.
+    """
+    suffix = suffix_of(path, SUFFIXES, "events")
+    content = read_bytes(path, MAX_BYTES)
+    return _from_toml(content, path) if suffix == ".toml" else _from_csv(content, path)
+
+
+def _from_toml(content: bytes, path: str | os.PathLike[str]) -> tuple[Event, ...]:
+    table, mistakes = check_document(EventsTable, parse_toml(content, path))
+    events = []
+    for number, one in enumerate(table.event if table is not None and not mistakes else ()):
+        try:
+            cell, to = (None if place is None else (place[0], place[1]) for place in (one.cell, one.to))
+            events.append(Event(one.step, one.event, cell, to, one.robot, one.steps))
+        except TrihexError as error:
+            mistakes.append(f"event.{number}: {error}")
+    if mistakes:
+        raise complaint(path, mistakes)
+    return tuple(events)
+
+
+def _from_csv(content: bytes, path: str | os.PathLike[str]) -> tuple[Event, ...]:
+    lines = check_text(content, path).decode().splitlines() or [""]
+    header = [name.strip() for name in lines[0].split(",")]
+    for name in header:
+        check_choice(f"{path}: line 1: a column", name, COLUMNS, FormatError)
+    if len(set(header)) < len(header) or not {"step", "event"} <= set(header):
+        raise FormatError(f"{path}: line 1: the header must have step and event, and each column once")
+    events = []
+    for number, line in enumerate(lines[1:], start=2):
+        if not line.strip():
+            continue
+        values = line.split(",")
+        if len(values) != len(header):
+            raise FormatError(f"{path}: line {number}: there must be {len(header)} columns, not {len(values)}")
+        try:
+            events.append(_event_of(dict(zip(header, values, strict=True))))
+        except TrihexError as error:
+            raise FormatError(f"{path}: line {number}: {error}") from None
+    return tuple(events)
+
+
+def _event_of(row: dict[str, str]) -> Event:
+    """Return the event of a row of text."""
+    numbers: dict[str, Any] = {}
+    for name, text in row.items():
+        if name != "event" and text.strip():
+            try:
+                numbers[name] = int(text) if len(text) <= 20 else None
+            except ValueError:
+                numbers[name] = None
+            if numbers[name] is None:
+                raise FormatError(f"{name} must be a whole number, not {text.strip()[:40]!r}")
+    if "step" not in numbers:
+        raise FormatError("step is missing")
+    for one, other in (("x", "y"), ("to_x", "to_y")):
+        if (one in numbers) != (other in numbers):
+            raise FormatError(f"{one} and {other} must come together")
+    cell = (numbers["x"], numbers["y"]) if "x" in numbers else None
+    to = (numbers["to_x"], numbers["to_y"]) if "to_x" in numbers else None
+    return Event(numbers["step"], row["event"].strip(), cell, to, numbers.get("robot"), numbers.get("steps"))
+
+
+def write_events(events: tuple[Event, ...], path: str | os.PathLike[str]) -> None:
+    """Write events as CSV."""
+    suffix_of(path, SUFFIXES[:1], "events")
+    with new_file(path) as part, open(Path(part), "w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(COLUMNS)
+        for event in events:
+            places = [*(event.cell or ("", "")), *(event.to or ("", ""))]
+            others = ["" if value is None else value for value in (event.robot, event.steps)]
+            writer.writerow([event.step, event.kind, *places, *others])

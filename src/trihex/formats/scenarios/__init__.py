@@ -1,0 +1,1 @@
+"""Scenarios: files that hold all that is planned."""

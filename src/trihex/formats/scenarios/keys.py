@@ -1,0 +1,101 @@
+"""Scenario schema: the keys that a scenario file may have."""
+
+from __future__ import annotations
+
+from pathlib import PurePath
+from typing import Annotated, Any
+
+from pydantic import AfterValidator, Field
+
+from trihex.areas import CORNERS, COSTS, CROSSINGS, NEIGHBOURHOODS, TESSELLATIONS
+from trihex.formats.areas.options import UNKNOWNS
+from trihex.formats.schema import Cells, Count, Number, Points, Table, Whole, choice
+
+
+class FrameTable(Table):
+    """[area.frame]: where the area lies in the world, in metres."""
+
+    cell_size: Annotated[Number, Field(gt=0)]
+    origin: Annotated[list[Number], Field(min_length=2, max_length=2)] = Field(default_factory=lambda: [0.0, 0.0])
+    yaw: Number = 0.0
+    robot_radius: Annotated[Number, Field(ge=0)] = 0.0
+
+
+class AreaTable(Table):
+    """[area]: where the barriers come from, and how they are read."""
+
+    one_of = ("path", "rows", "!")
+    path: str | None = None
+    rows: list[str] | None = None
+    name: str | None = None
+    tessellation: Annotated[str, choice("it", TESSELLATIONS)] = "hexagonal"
+    neighbourhood: Annotated[str, choice("it", NEIGHBOURHOODS)] = "full"
+    costs: Annotated[str, choice("it", COSTS)] = "paper"
+    frame: FrameTable | None = None
+    # How the file at `path` is read; see `formats.options.AreaOptions`.
+    cell_size: Annotated[Number, Field(gt=0)] | None = None
+    robot_radius: Annotated[Number, Field(ge=0)] | None = None
+    unknown: Annotated[str, choice("it", UNKNOWNS)] | None = None
+    threshold: Annotated[Number, Field(ge=0, le=1)] | None = None
+    invert: bool | None = None
+    resolution: Annotated[Number, Field(gt=0)] | None = None
+
+
+class RulesTable(Table):
+    """[rules]: what robots may do."""
+
+    waiting_cost: Whole | None = None
+    crossing: Annotated[str, choice("it", CROSSINGS)] | None = None
+    corners: Annotated[str, choice("it", CORNERS)] | None = None
+    destination_capacity: Count | None = None
+
+
+class RobotsTable(Table):
+    """[robots]: given, from a file, or drawn."""
+
+    one_of = ("cells", "metres", "file", "random")
+    cells: Cells | None = None
+    metres: Points | None = None
+    file: str | None = None
+    random: Whole | None = None
+    seed: Whole | None = None
+
+
+class PlannerTable(Table):
+    """[planner]: its name in the registry, and its options."""
+
+    name: str | None = None
+    options: dict[str, Any] = Field(default_factory=dict)
+
+
+def _beside(value: str) -> str:
+    """Return the path of an output; a scenario from somewhere must not write to anywhere."""
+    if not value or "\0" in value or PurePath(value).is_absolute() or ".." in PurePath(value).parts:
+        raise ValueError(f"must be a path beside the scenario or below it, not {value!r:.60}")
+    return value
+
+
+_Output = Annotated[str, AfterValidator(_beside)]
+
+
+class OutputsTable(Table):
+    """[outputs]: what `trihex plan` writes, unless its options say otherwise."""
+
+    plan: _Output | None = None
+    summary: _Output | None = None
+    picture: _Output | None = None
+    waypoints: _Output | None = None
+    speed: Annotated[Number, Field(gt=0)] | None = None
+
+
+class ScenarioTable(Table):
+    """The whole file."""
+
+    one_of = ("destinations", "destinations_in_metres")
+    area: AreaTable
+    destinations: Cells | None = None
+    destinations_in_metres: Points | None = None
+    rules: RulesTable = RulesTable()
+    robots: RobotsTable = RobotsTable()
+    planner: PlannerTable = PlannerTable()
+    outputs: OutputsTable = OutputsTable()

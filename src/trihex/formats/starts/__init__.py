@@ -1,0 +1,1 @@
+"""Starts: files of the cells in which robots start."""

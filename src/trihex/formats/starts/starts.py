@@ -1,0 +1,42 @@
+"""Starts: where the robots of a file begin, whichever format it has."""
+
+from __future__ import annotations
+
+import os
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trihex.areas import Area
+from trihex.files import read_bytes
+from trihex.formats.recognise import format_of
+from trihex.formats.starts.csv import HEADER_IN_METRES, parse_starts, parse_starts_in_metres
+
+
+def read_starts(path: str | os.PathLike[str], area: Area) -> NDArray[np.int64]:
+    """Return the cell numbers of robots, in the order of a file.
+
+    Parameters
+    ----------
+    path : path
+        CSV with the header `x,y` of cells or `x_metres,y_metres` of points in the world, or a MovingAI ``.scen``, of
+        which only the starts are read.
+    area : Area
+
+    Raises
+    ------
+    FormatError
+        If a line is not of the form, or a place lies outside `area`.
+    AreaError
+        If places are given in metres and the area has no frame.
+    OSError
+        If the file cannot be read.
+    """
+    content = read_bytes(path)
+    if format_of(content, path) == "scen":
+        from trihex.formats.starts.scen import parse_scen
+
+        return parse_scen(content, path, area)
+    if content.removeprefix(b"\xef\xbb\xbf").partition(b"\n")[0].strip() == HEADER_IN_METRES.encode():
+        return parse_starts_in_metres(content, path, area)
+    return parse_starts(content, path, area)

@@ -1,0 +1,1 @@
+"""Tracks: where each robot is at which second, as files for others."""

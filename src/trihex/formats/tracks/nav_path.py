@@ -1,0 +1,66 @@
+"""Nav path: a `nav_msgs/Path` message for each robot, as YAML documents or as a JSON list."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator
+from math import cos, sin
+from typing import Any
+
+from trihex.files import new_file
+from trihex.formats.tracks.tracks import Tracks
+
+FRAME_ID = "map"
+
+
+def write_nav_path(tracks: Tracks, path: str | os.PathLike[str], *, is_json: bool) -> None:
+    """Write a message for each robot, in the order of their numbers, with a pose for each step, stamped from 0 on."""
+    with new_file(path) as part, open(part, "w", encoding="ascii", newline="\n") as file:
+        if is_json:
+            for robot in range(tracks.robot_count):
+                file.write("[\n" if robot == 0 else ",\n")
+                file.write(json.dumps(_message(tracks, robot)))
+            file.write("\n]\n" if tracks.robot_count else "[]\n")
+        else:
+            for robot in range(tracks.robot_count):
+                file.write(f"---  # robot {robot}\n")
+                file.writelines(_yaml_lines(_message(tracks, robot), ""))
+
+
+def _message(tracks: Tracks, robot: int) -> dict[str, Any]:
+    """Return the message of a robot with the fields of nav_msgs/Path."""
+    rows = tracks.rows_of(robot)
+    columns = (column[rows].tolist() for column in (tracks.seconds, tracks.x, tracks.y, tracks.yaw))
+    poses = [
+        {
+            "header": _header(seconds),
+            "pose": {
+                "position": {"x": round(x, 6), "y": round(y, 6), "z": 0.0},
+                "orientation": {"x": 0.0, "y": 0.0, "z": round(sin(yaw / 2), 9), "w": round(cos(yaw / 2), 9)},
+            },
+        }
+        for seconds, x, y, yaw in zip(*columns, strict=True)
+    ]
+    return {"header": _header(0.0), "poses": poses}
+
+
+def _header(seconds: float) -> dict[str, Any]:
+    whole, nanoseconds = divmod(round(seconds * 1e9), 10**9)
+    return {"stamp": {"sec": whole, "nanosec": nanoseconds}, "frame_id": FRAME_ID}
+
+
+def _yaml_lines(value: dict[str, Any], indent: str) -> Iterator[str]:
+    """Yield the lines of a YAML mapping of mappings, lists of mappings, numbers and words."""
+    for key, inner in value.items():
+        if isinstance(inner, dict):
+            yield f"{indent}{key}:\n"
+            yield from _yaml_lines(inner, indent + "  ")
+        elif isinstance(inner, list):
+            yield f"{indent}{key}:\n" if inner else f"{indent}{key}: []\n"
+            for item in inner:
+                first, *others = _yaml_lines(item, indent + "  ")
+                yield f"{indent}- {first.lstrip()}"
+                yield from others
+        else:
+            yield f"{indent}{key}: {inner}\n"

@@ -1,0 +1,175 @@
+"""Report: the numbers of one plan."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trihex.bounds import LowerBound, distance_bound, make_lower_bound
+from trihex.fields import NScheme, make_n_scheme
+from trihex.judging.audit import Audit, audit_plan
+from trihex.plans import Plan
+from trihex.record import Record
+
+PARTS = ("read", "field", "plan", "audit")
+
+
+@dataclass(frozen=True, eq=False)
+class Report(Record):
+    """What a plan costs, what any plan must cost, and what the judge says.
+
+    Parameters
+    ----------
+    plan : Plan
+    audit : Audit
+        The judgement of `plan`.
+    bound : LowerBound
+        A total time that no plan can beat.
+    unreachable_robots : int64 array
+        Robots that cannot arrive, ascending.
+    seconds : mapping
+        How long parts of the work took, by the names of `PARTS`; what is not known is missing.
+    """
+
+    plan: Plan
+    audit: Audit
+    bound: LowerBound
+    unreachable_robots: NDArray[np.int64]
+    seconds: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def total_time(self) -> int:
+        """Sum of t_r over the robots that arrive."""
+        return self.plan.total_time
+
+    @property
+    def total_distance(self) -> int:
+        """Sum of d_r over the robots that arrive."""
+        return int(self.plan.distance_of_robot[self.plan.arrived].sum())
+
+    @property
+    def total_waiting(self) -> int:
+        """Sum of w_r over the robots that arrive."""
+        return int(self.plan.waiting_of_robot[self.plan.arrived].sum())
+
+    @property
+    def longest_time(self) -> int:
+        """The largest t_r among the robots that arrive."""
+        return int(self.plan.time_of_robot[self.plan.arrived].max(initial=0))
+
+    @property
+    def steps(self) -> int:
+        """The step in which the last robot arrives."""
+        return int(self.plan.arrival_step_of_robot.max(initial=0))
+
+    @cached_property
+    def arrived_count(self) -> int:
+        """Number of robots that arrive."""
+        return int(np.count_nonzero(self.plan.arrived))
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether every robot that can arrive does."""
+        return self.arrived_count == self.plan.scenario.robot_count - self.unreachable_robots.size
+
+    @property
+    def optimal(self) -> bool:
+        """Whether it is proven that no plan takes less total time: by the planner, or because the bound is attained."""
+        is_proven = self.plan.optimal or self.total_time <= self.bound.value
+        return is_proven and self.is_complete and self.audit.is_clean
+
+    @property
+    def lower_bound(self) -> int:
+        """Value of `bound`, or the total time itself where that is proven to be the least."""
+        return self.total_time if self.optimal else self.bound.value
+
+    @property
+    def lower_bound_name(self) -> str:
+        """Name of `bound`, or "optimum"."""
+        return "optimum" if self.optimal else self.bound.name
+
+    @property
+    def gap(self) -> float | None:
+        """How far the total time lies above the lower bound: total_time / lower_bound - 1.
+
+        0 if both are 0, as where all robots start on destinations. None where it has no meaning: some robot does not
+        arrive though it could, or the bound is 0 and the total time is not.
+        """
+        bound = self.lower_bound
+        if not self.is_complete or (bound == 0 and self.total_time > 0):
+            return None
+        return self.total_time / bound - 1 if bound else 0.0
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the summary: plain numbers, strings and None, ready for JSON."""
+        plan, scenario, area = self.plan, self.plan.scenario, self.plan.scenario.area
+        return {
+            "area": area.name,
+            "tessellation": area.tessellation.name,
+            "neighbourhood": area.tessellation.neighbourhood,
+            "costs": area.tessellation.costs,
+            "corners": scenario.corners,
+            "crossing": scenario.crossing,
+            "destination_capacity": scenario.destination_capacity,
+            "cells": area.cell_count,
+            "free_cells": area.free_count,
+            "robots": scenario.robot_count,
+            "arrived": self.arrived_count,
+            "unreachable": int(self.unreachable_robots.size),
+            "seed": scenario.seed,
+            "planner": plan.planner,
+            "waiting_cost": int(scenario.waiting_cost),
+            "steps": self.steps,
+            "total_time": self.total_time,
+            "total_distance": self.total_distance,
+            "total_waiting": self.total_waiting,
+            "longest_time": self.longest_time,
+            "lower_bound": self.lower_bound,
+            "lower_bound_name": self.lower_bound_name,
+            "gap": self.gap,
+            "optimal": self.optimal,
+            "conflicts": self.audit.conflict_count,
+            "seconds": {part: self.seconds.get(part) for part in PARTS},
+        }
+
+
+def make_report(
+    plan: Plan,
+    *,
+    n_scheme: NScheme | None = None,
+    audit: Audit | None = None,
+    lower_bound: LowerBound | None = None,
+    seconds: Mapping[str, float] | None = None,
+) -> Report:
+    """Audit `plan`, bound it from below, and put its numbers together.
+
+    Parameters
+    ----------
+    plan : Plan
+    n_scheme, audit, lower_bound : optional
+        Made here unless they are there already.
+    seconds : mapping, optional
+        How long the parts of the work took, by the names of `PARTS`.
+
+    Examples
+    --------
+    >>> from trihex import Area, Scenario
+    >>> from trihex.plans.plan import plan_from_lists
+    >>> scenario = Scenario(Area("square", [[0, 0, 0]]), destinations=[(2, 0)], robots=[(0, 0), (1, 0)])
+    >>> report = make_report(plan_from_lists(scenario, [[1, 255, 1], [1]]))
+    >>> report.total_time, report.lower_bound, round(report.gap, 3)
+    (40, 30, 0.333)
+    """
+    n_scheme = make_n_scheme(plan.scenario) if n_scheme is None else n_scheme
+    audit = audit_plan(plan) if audit is None else audit
+    # Where the optimum is proven no bound is asked for, so a cheap one will do until that is known.
+    cheap = distance_bound(n_scheme)
+    report = Report(plan, audit, lower_bound or cheap, n_scheme.unreachable_robots, dict(seconds or {}))
+    if lower_bound is None and not report.optimal:
+        report = replace(report, bound=make_lower_bound(n_scheme))
+    return report

@@ -1,0 +1,24 @@
+from .earliest import (
+    make_earliest_flow as make_earliest_flow,
+)
+from .flow import (
+    Flow as Flow,
+)
+from .flow import (
+    make_flow_by_levels as make_flow_by_levels,
+)
+from .flow import (
+    make_flow_singly as make_flow_singly,
+)
+from .network import (
+    OBJECTIVES as OBJECTIVES,
+)
+from .network import (
+    Network as Network,
+)
+from .network import (
+    make_network as make_network,
+)
+from .paths import (
+    make_plan_of_flow as make_plan_of_flow,
+)

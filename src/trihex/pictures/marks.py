@@ -1,0 +1,152 @@
+"""Marks: what pictures put into cells, robots, letters, numbers, arrows, paths."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trihex.areas import Area, Scenario
+from trihex.kernels.codes import NOT_REACHED
+from trihex.pictures.palette import DESTINATION, INK, PAGE, Colour, is_light
+from trihex.pictures.scene import Discs, Mark, Texts, centres_of, ink_on
+from trihex.pictures.sheet import width_of
+from trihex.plans import Plan
+
+# In pixels per edge step, the diameter of the circle inside a cell.
+LETTERS_FROM = 20.0
+ROBOT_RADIUS = 0.34  # in edge steps
+LEAST_ROBOT = 1.3  # pixels
+_LEAST_NUMBER = 7.0  # size of letters, in pixels
+LETTERS = "abcdefghijklmnopqrstuvwxyz"
+
+
+def destination_marks(scenario: Scenario, scale: float, *, letters: bool = True) -> list[Mark]:
+    """Return a D for each destination; where cells are too small, a disc in a white ring, so that it is found."""
+    x, y = centres_of(scenario.area, scenario.destinations)
+    if scale < LETTERS_FROM:
+        return [Discs(x, y, 0.65, PAGE, 5.0), Discs(x, y, 0.5, DESTINATION, 3.5)]
+    if not letters:
+        return []
+    return [Texts(x, y, ("D",) * x.size, round(0.5 * scale), PAGE)]
+
+
+def robot_marks(scenario: Scenario, robots: NDArray[np.int64], colour: Colour, scale: float) -> list[Mark]:
+    """Return a disc at the start of each of `robots`; where they are few, with the letter of the paper."""
+    if not robots.size:
+        return []
+    x, y = centres_of(scenario.area, scenario.robots[robots])
+    marks: list[Mark] = [Discs(x, y, ROBOT_RADIUS, colour, LEAST_ROBOT)]
+    if scale >= LETTERS_FROM and scenario.robot_count <= len(LETTERS):
+        marks.append(Texts(x, y, tuple(LETTERS[r] for r in robots), round(0.46 * scale), ink_on(colour)))
+    return marks
+
+
+def leave_room(scenario: Scenario, scale: float) -> bool:
+    """Tell whether discs for all robots leave half of the picture free, or are no larger than cells."""
+    radius = max(ROBOT_RADIUS * scale, LEAST_ROBOT)
+    pixels = scenario.area.cell_count * scale * scale
+    return radius <= 0.5 * scale or 3.14 * radius * radius * scenario.robot_count <= 0.5 * pixels
+
+
+def number_marks(
+    area: Area,
+    numbers: NDArray[np.integer],
+    colour_of_cell: NDArray[np.uint8],
+    colours: NDArray[np.uint8],
+    scale: float,
+) -> list[Mark]:
+    """Return the numbers (height, width) of cells that are reached, if they fit into the cells."""
+    is_shown = numbers != NOT_REACHED
+    most = int(numbers.max(initial=0, where=is_shown))
+    # At size 100 the widest number is so wide; the diagonal of its box must fit into the circle inside the cell.
+    wide = width_of("0" * len(str(most)), 100) / 100
+    size = min(0.36 * scale, 0.96 * scale / float(np.hypot(wide, 0.72)))
+    if size < _LEAST_NUMBER:
+        return []
+    light = np.array([is_light(tuple(colour)) for colour in colours.tolist()])
+    marks: list[Mark] = []
+    for ink, wanted in ((INK, True), (PAGE, False)):
+        cells = np.flatnonzero(is_shown & (light[colour_of_cell] == wanted))
+        words = tuple(map(str, numbers.reshape(-1)[cells].tolist()))
+        marks.append(Texts(*centres_of(area, cells), words, round(size, 1), ink))
+    return marks
+
+
+def _units(area: Area) -> NDArray[np.float64]:
+    """Return the way from a cell to each neighbour as a vector of length 1, shape (2 orientations, directions, 2)."""
+    step, x = area.tessellation.step_of_direction, np.array([[0], [1]])
+    here = area.tessellation.centre_of_cell(x, 0 * x)
+    there = area.tessellation.centre_of_cell(x + step[..., 0], step[..., 1])
+    way = np.stack([there[0] - here[0], there[1] - here[1]], axis=-1)
+    return np.asarray(way / np.linalg.norm(way, axis=-1, keepdims=True))
+
+
+def arrow_paths(area: Area, directions: NDArray[np.uint16]) -> tuple[NDArray[np.float64], ...]:
+    """Return an arrow, a polyline of 5 points, for each bit set in `directions` (height, width)."""
+    unit, cells = _units(area), np.flatnonzero(directions)
+    bits = directions.reshape(-1)[cells]
+    orientation = area.tessellation.orientation_of_cell(*area.cell_to_xy(cells))
+    arrows = []
+    for k in range(unit.shape[1]):
+        has = np.flatnonzero(bits >> k & 1)
+        centre = np.stack(centres_of(area, cells[has]), axis=-1)
+        way = unit[orientation[has], k]
+        side = np.stack([-way[:, 1], way[:, 0]], axis=-1)
+        tip, neck = centre + 0.44 * way, centre + 0.30 * way
+        arrows.append(np.stack([centre, tip, neck + 0.065 * side, tip, neck - 0.065 * side], axis=1))
+    return tuple(np.concatenate(arrows))
+
+
+def compass_of(area: Area, directions: NDArray[np.uint16], count: int) -> NDArray[np.uint8]:
+    """Return where the mean of the directions of each cell points, 0..count - 1 clockwise from north."""
+    unit = _units(area)
+    bits = np.arange(1 << unit.shape[1])[:, None] >> np.arange(unit.shape[1]) & 1
+    # All sets of directions are few beside the cells: look them up.
+    mean = bits @ unit
+    first = np.take_along_axis(unit, np.argmax(bits, axis=1)[None, :, None], axis=1)
+    mean = np.where(np.linalg.norm(mean, axis=-1, keepdims=True) < 1e-9, first, mean)
+    turn = np.arctan2(mean[..., 0], -mean[..., 1]) / (2 * np.pi)
+    index = (np.round(turn * count).astype(np.int64) % count).astype(np.uint8)
+    y, x = np.ogrid[: area.height, : area.width]
+    return np.asarray(index[area.tessellation.orientation_of_cell(x, y), directions])
+
+
+def visits_of(plan: Plan) -> NDArray[np.int64]:
+    """Return how many robots start in or enter each cell, shape (height, width)."""
+    from trihex.pictures.kernels.raster import count_visits
+
+    scenario, layout = plan.scenario, plan.scenario.area.layout
+    visits = np.zeros(layout.size, dtype=np.int64)
+    start, first, jump = layout.cell_to_site(scenario.robots), plan.first_action, 0
+    robot, robots = 0, scenario.robot_count
+    while robot < robots:  # some 10^7 actions a call
+        last = max(robot + 1, int(np.searchsorted(first, first[robot] + 10_000_000)) - 1)
+        last = min(robots, last, robot + 1_000_000)
+        jump = count_visits(
+            start, plan.actions, first, layout.offset_of_direction, *plan.jump_tables, jump, robot, last, visits
+        )
+        robot = last
+    return layout.cells_of(visits)  # type: ignore[return-value]
+
+
+def robot_paths(plan: Plan) -> tuple[NDArray[np.float64], ...]:
+    """Return the way of each robot, shape (points, 2), each a little aside, so that paths in one cell do not hide."""
+    area = plan.scenario.area
+    cells = np.stack(list(plan.cells_by_step()))
+    paths = []
+    for robot, end in enumerate(plan.last_cell_of_robot.tolist()):
+        own = np.append(cells[:, robot][cells[:, robot] >= 0], end)
+        own = own[np.append(True, own[1:] != own[:-1])]
+        turn = 2.399963 * robot  # the golden angle: no two robots of a few are aside alike
+        aside = 0.13 * np.array([np.cos(turn), np.sin(turn)]) if plan.scenario.robot_count > 1 else 0.0
+        paths.append(np.stack(centres_of(area, own), axis=-1) + aside)
+    return tuple(paths)
+
+
+def base_cells(record: Area | Scenario, free: int, barrier: int, destination: int) -> NDArray[np.uint8]:
+    """Return which of the three each cell is, shape (height, width)."""
+    area = record if isinstance(record, Area) else record.area
+    cells = np.where(area.barriers, np.uint8(barrier), np.uint8(free))
+    if isinstance(record, Scenario):
+        cells.reshape(-1)[record.destinations] = destination
+    return cells

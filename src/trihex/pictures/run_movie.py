@@ -1,0 +1,196 @@
+"""Run movie: robots on their way through a world that changes or clears up as they see it, frame by frame."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from contextlib import closing
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trihex.files import new_file, suffix_of
+from trihex.kernels.codes import LATE, WAIT
+from trihex.pictures import marks as make
+from trihex.pictures.gif import GifWriter
+from trihex.pictures.movie import MOVIE_SUFFIXES as SUFFIXES
+from trihex.pictures.movie import Pace, Progress, arrange_frame, check_range
+from trihex.pictures.mp4 import Mp4Writer, import_av
+from trihex.pictures.palette import DESTINATION, MOVING, PAGE, SERIES, STRANDED, WAITING, Colour
+from trihex.pictures.png import paint, paint_disc_marks, paint_discs, write_words
+from trihex.pictures.run_picture import CLASS_COLOURS, class_keys, classes_of, run_title
+from trihex.pictures.scene import Discs, Key, Mark, Scene, centres_of, scale_for
+from trihex.pictures.sheet import MARGIN, TEXT_SIZE, Sheet, Words, width_of
+from trihex.running import BROKEN, GOING, Run
+
+LATE_COLOUR = SERIES[1]
+_SIDE, _MOST_SIDE = 640.0, 900.0
+_MOST_SUBSTEPS = 6
+_HOLD = 1500
+_RADIUS, _LEAST_RADIUS = 0.4, 1.7
+
+
+def write_run_animation(
+    run: Run,
+    path: str | os.PathLike[str],
+    *,
+    width: int | None = None,
+    title: str | None = None,
+    frames_per_second: int = 20,
+    max_frames: int = 240,
+    progress: Progress | None = None,
+) -> None:
+    """Write a movie of a run: what is known, what is not, robots that move, wait, are late, cut off or broken.
+
+    Parameters and errors are those of `trihex.pictures.movie.write_animation`.
+    """
+    suffix = suffix_of(path, SUFFIXES, "a movie")
+    check_range("frames_per_second", frames_per_second, 1, 50)
+    check_range("max_frames", max_frames, 2, 100_000)
+    if suffix == ".mp4":
+        import_av()
+    film = RunFilm(run, max_frames, width, run_title(run) if title is None else title)
+    with new_file(path) as part:
+        writer: GifWriter | Mp4Writer
+        if suffix == ".gif":
+            writer = GifWriter(part, film.sample, [STRANDED, LATE_COLOUR, WAITING, MOVING])
+        else:
+            writer = Mp4Writer(part, frames_per_second)
+        with closing(writer):
+            for done, frame in enumerate(film.frames(), 1):
+                writer.add(frame, 10 * round(100 / frames_per_second) if done < film.pace.frame_count else _HOLD)
+                if progress:
+                    progress(done, film.pace.frame_count)
+
+
+@dataclass(frozen=True)
+class RunFilm:
+    """The frames of a movie of a run."""
+
+    run: Run
+    max_frames: int
+    width: int | None
+    title: str
+
+    @cached_property
+    def pace(self) -> Pace:
+        """Which steps are shown."""
+        return Pace(self.run.steps, self.max_frames, _MOST_SUBSTEPS)
+
+    @cached_property
+    def scene(self) -> Scene:
+        """What all frames have in common."""
+        area, run = self.run.scenario.area, self.run
+        across, _ = area.tessellation.extent(area.height, area.width)
+        pixels = max(8, round(scale_for(area, self.width, _SIDE, _MOST_SIDE) * across))
+        keys = [Key("disc", MOVING, "moving"), Key("disc", WAITING, "waiting")]
+        keys += [Key("disc", LATE_COLOUR, "late")] if (run.actions == LATE).any() else []
+        keys += [Key("disc", STRANDED, "cut off or broken")] if (run.state_of_robot != 1).any() else []
+        return Scene(
+            area,
+            classes_of(run, 0, area.barriers, run.scenario.destinations),
+            CLASS_COLOURS,
+            scale_for(area, pixels),
+            (1, 3, 4),
+            (),
+            (*keys, *class_keys(run)),
+            self.title,
+            "clock",
+        )
+
+    @cached_property
+    def sheet(self) -> Sheet:
+        """Where the parts of a frame lie."""
+        return arrange_frame(self.scene)
+
+    @cached_property
+    def background(self) -> NDArray[np.uint8]:
+        """The picture before the first step, without robots, shape (height, width, 3)."""
+        return paint(self.scene, self.sheet)
+
+    @property
+    def sample(self) -> NDArray[np.uint8]:
+        """All colours of backgrounds: that before the first step, and in every other row one in which all is known."""
+        run, sample = self.run, self.background.copy()
+        known = replace(run, known_since=np.zeros_like(run.known_since))
+        classes = classes_of(known, 0, run.scenario.area.barriers, run.scenario.destinations)
+        sample[::2] = paint(replace(self.scene, colour_of_cell=classes), self.sheet)[::2]
+        return sample
+
+    def frames(self) -> Iterator[NDArray[np.uint8]]:
+        """Yield the frames, each of shape (height, width, 3)."""
+        run = self.run
+        cells, worlds = list(run.cells_by_step()), run.worlds()
+        world = (run.scenario.area.barriers.copy(), run.scenario.destinations)
+        shown, background = self.scene, self.background
+        for step in range(run.steps + 1):
+            if step:
+                barriers, destinations = next(worlds)
+                world = (barriers, destinations)
+            if step % self.pace.every and step != run.steps:
+                continue
+            classes = classes_of(run, step, *world)
+            if not np.array_equal(classes, shown.colour_of_cell):
+                shown = replace(self.scene, colour_of_cell=classes)
+                background = paint(shown, self.sheet)
+            later = cells[min(step + 1, run.steps)]
+            for part in range(self.pace.substeps if step < run.steps else 1):
+                yield self._frame(background, step, cells[step], later, part / self.pace.substeps, world[1])
+
+    def _groups(self, step: int, cells: NDArray[np.int64]) -> list[tuple[NDArray[np.int64], Colour]]:
+        """Return the robots to be seen after `step` by colour."""
+        run, there = self.run, cells >= 0
+        action = run.actions[step] if step < run.steps else np.full(there.size, WAIT, dtype=np.uint8)
+        cut_off = (run.cut_off_since >= 0) & (run.cut_off_since <= step) & (run.state_of_robot == GOING)
+        broken = (run.state_of_robot == BROKEN) & (run.ended <= step) & (run.ended >= 0)
+        goes = there & ~cut_off
+        return [
+            (np.flatnonzero(broken | (there & cut_off)), STRANDED),
+            (np.flatnonzero(goes & (action == WAIT)), WAITING),
+            (np.flatnonzero(goes & (action == LATE)), LATE_COLOUR),
+            (np.flatnonzero(goes & (action < LATE)), MOVING),
+        ]
+
+    def _frame(
+        self,
+        background: NDArray[np.uint8],
+        step: int,
+        cells: NDArray[np.int64],
+        later: NDArray[np.int64],
+        share: float,
+        destinations: NDArray[np.int64],
+    ) -> NDArray[np.uint8]:
+        run, area, scale = self.run, self.run.scenario.area, self.scene.scale
+        at = np.where(cells >= 0, cells, self._last_cells)
+        x, y = centres_of(area, at)
+        if share:
+            to_x, to_y = centres_of(area, np.where(later >= 0, later, np.where(cells >= 0, self._last_cells, at)))
+            x, y = x + share * (to_x - x), y + share * (to_y - y)
+        frame = background.copy()
+        marks: tuple[Mark, ...] = ()
+        if scale < make.LETTERS_FROM and destinations.size:  # cells are too small to be found by their colour alone
+            ends = centres_of(area, destinations)
+            marks = (Discs(*ends, 0.65, PAGE, 5.0), Discs(*ends, 0.5, DESTINATION, 3.5))
+        paint_disc_marks(frame, replace(self.scene, marks=marks), self.sheet)
+        x, y = x * scale + self.sheet.body[0], y * scale + self.sheet.body[1]
+        for robots, colour in self._groups(step, cells):
+            paint_discs(frame, x[robots], y[robots], max(_RADIUS * scale, _LEAST_RADIUS), colour)
+        arrived = np.count_nonzero(run.arrived & (run.ended <= step))
+        known = float(np.mean((run.known_since >= 0) & (run.known_since <= step)))
+        text = f"step {step} of {run.steps}, arrived {arrived} of {run.robots.size}"
+        text += f", known {100 * known:.0f} %" if run.sensor is not None else ""
+        room = self.sheet.width - 2 * MARGIN
+        size = int(min(TEXT_SIZE, TEXT_SIZE * room / width_of(text, TEXT_SIZE)))
+        return write_words(frame, [Words(*self.sheet.subtitle_at, text, size)])
+
+    @cached_property
+    def _last_cells(self) -> NDArray[np.int64]:
+        """Where each robot was last, its destination if it arrived."""
+        layout = self.run.scenario.area.layout
+        site = layout.cell_to_site(self.run.robots)
+        for action in self.run.actions:
+            moves = np.flatnonzero(action < LATE)
+            site[moves] += layout.offset_of_direction[site[moves] & 1, action[moves]]
+        return layout.site_to_cell(site)

@@ -1,0 +1,128 @@
+"""Registry: the planners by name.
+
+Every planner is a function ``plan_<name>(n_scheme, *, progress=None, **options) -> Plan`` in a file of its own, which
+is imported when it is first asked for; it may have a sister ``arrivals_<name>`` that returns `Arrivals`. The command
+line, the tests, the docs and the benchmarks read this registry.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from importlib import import_module
+from typing import Any, Literal, overload
+
+from trihex.areas import Scenario
+from trihex.errors import PlanError, check_choice
+from trihex.fields import NScheme, make_n_scheme
+from trihex.plans import Arrivals, Plan, make_arrivals
+
+Progress = Callable[[int, int], None]
+Planner = Callable[..., Plan]
+
+RECORDS = ("plan", "arrivals")
+
+# Name: the module under trihex.planners that defines plan_<name>.
+PLANNERS: dict[str, str] = {"greedy": "greedy", "fcost": "fcost", "astar": "astar", "optimal": "optimal"}
+
+
+def planner_named(name: str) -> Planner:
+    """Return the planner function registered as `name`.
+
+    Raises
+    ------
+    PlanError
+        If there is no such planner.
+    """
+    check_choice("planner", name, PLANNERS, PlanError)
+    planner: Planner = getattr(import_module(f"trihex.planners.{PLANNERS[name]}"), f"plan_{name}")
+    return planner
+
+
+def options_of(name: str) -> dict[str, Any]:
+    """Return the options of the planner `name` with their defaults.
+
+    Examples
+    --------
+    >>> options_of("greedy")
+    {}
+    """
+    parameters = inspect.signature(planner_named(name)).parameters.values()
+    return {p.name: p.default for p in parameters if p.kind is p.KEYWORD_ONLY and p.name != "progress"}
+
+
+@overload
+def make_plan(
+    scenario: Scenario,
+    planner: str = ...,
+    *,
+    n_scheme: NScheme | None = ...,
+    progress: Progress | None = ...,
+    record: Literal["plan"] = ...,
+    **options: Any,
+) -> Plan: ...
+@overload
+def make_plan(
+    scenario: Scenario,
+    planner: str = ...,
+    *,
+    n_scheme: NScheme | None = ...,
+    progress: Progress | None = ...,
+    record: Literal["arrivals"],
+    **options: Any,
+) -> Arrivals: ...
+def make_plan(
+    scenario: Scenario,
+    planner: str = "fcost",
+    *,
+    n_scheme: NScheme | None = None,
+    progress: Progress | None = None,
+    record: str = "plan",
+    **options: Any,
+) -> Plan | Arrivals:
+    """Plan collision-free paths for all robots of `scenario`.
+
+    Parameters
+    ----------
+    scenario : Scenario
+    planner : str
+        A name of `PLANNERS`.
+    n_scheme : NScheme, optional
+        The N-scheme of `scenario`, if it is at hand.
+    progress : callable, optional
+        Called with (robots arrived, robots that can arrive) a few times a second.
+    record : {"plan", "arrivals"}
+        Whether to return the plan, or only when each robot arrives and what that takes: 16 bytes a robot, and with
+        `greedy` and `fcost` no action is ever kept.
+    **options
+        Options of the planner, see `options_of`.
+
+    Raises
+    ------
+    PlanError
+        If there is no such planner, record or option of the planner, or `n_scheme` belongs to another scenario.
+
+    Examples
+    --------
+    >>> import trihex as th
+    >>> scenario = th.Scenario(th.Area("hexagonal", [[0, 0, 0, 0]]), destinations=[(3, 0)], robots=[(0, 0), (1, 0)])
+    >>> make_plan(scenario, "greedy").time_of_robot
+    array([30, 20])
+    """
+    plan = planner_named(planner)
+    check_choice("record", record, RECORDS, PlanError)
+    known = options_of(planner)
+    for option in options:
+        if option not in known:
+            check_choice(f"option of planner {planner!r}", option, known, PlanError)
+    if n_scheme is None:
+        n_scheme = make_n_scheme(scenario)
+    elif n_scheme.scenario is not scenario and n_scheme.scenario != scenario:
+        raise PlanError("n_scheme must be that of the scenario")
+    if record == "plan":
+        return plan(n_scheme, progress=progress, **options)
+    arrivals = getattr(import_module(plan.__module__), f"arrivals_{planner}", None)
+    if arrivals is None:
+        return make_arrivals(plan(n_scheme, progress=progress, **options))
+    made: Arrivals = arrivals(n_scheme, progress=progress, **options)
+    return made

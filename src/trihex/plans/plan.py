@@ -1,0 +1,212 @@
+"""Plan: what each robot does at each step, and what follows from it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trihex.areas import Scenario
+from trihex.errors import PlanError
+from trihex.kernels.codes import JUMP, WAIT
+from trihex.record import Record, read_only
+
+_NO_ACTIONS = np.empty(0, dtype=np.uint8)
+_NO_JUMPS = np.empty((0, 2), dtype=np.int64)
+
+
+@dataclass(frozen=True, eq=False)
+class Plan(Record):
+    """The actions of all robots, one byte each, and the times that follow from them.
+
+    Time runs in steps 1, 2, ...; in each step a robot that has not arrived makes one move or waits, and one that enters
+    a destination leaves the area in that step. Robot r has the actions
+    ``actions[first_action[r] : first_action[r + 1]]``; its last one brings it to its destination. A robot that cannot
+    arrive, or starts on a destination, has none.
+
+    Parameters
+    ----------
+    scenario : Scenario
+    actions : uint8 array
+        A direction number of the tessellation, or `WAIT`. A plan read from a file may hold `JUMP`.
+    first_action : int64 array, shape (robots + 1,)
+    planner : str
+        Name of the planner, for reports.
+    optimal : bool
+        True only if it is proven that no plan has a smaller sum of t_r.
+    jumps : int64 array, shape (m, 2)
+        For each `JUMP`, ascending: its index in `actions`, and the number of the cell it leads to. Planners make none;
+        they let the audit judge files in which robots do what no robot can.
+
+    Raises
+    ------
+    PlanError
+        If the arrays do not fit each other or the scenario.
+    """
+
+    scenario: Scenario
+    actions: NDArray[np.uint8]
+    first_action: NDArray[np.int64]
+    planner: str = ""
+    optimal: bool = False
+    jumps: NDArray[np.int64] = field(default_factory=lambda: _NO_JUMPS)
+
+    def __post_init__(self) -> None:
+        self._set("actions", read_only(np.ascontiguousarray(self.actions, dtype=np.uint8)))
+        self._set("first_action", read_only(np.ascontiguousarray(self.first_action, dtype=np.int64)))
+        self._set("jumps", read_only(np.ascontiguousarray(self.jumps, dtype=np.int64).reshape(-1, 2)))
+        robots, first = self.scenario.robot_count, self.first_action
+        if (
+            first.shape != (robots + 1,)
+            or first[0] != 0
+            or first[-1] != self.actions.size
+            or first.min() < 0  # or the differences might overflow
+            or (np.diff(first) < 0).any()
+        ):
+            raise PlanError(
+                f"first_action must rise from 0 to {self.actions.size} in {robots + 1} entries, one more than robots"
+            )
+        directions = self.scenario.area.tessellation.direction_count
+        odd = np.flatnonzero(self.actions - np.uint8(directions) <= JUMP - directions)  # from directions to JUMP
+        bad = odd[self.actions[odd] != JUMP]
+        if bad.size:
+            raise PlanError(f"actions must be directions 0..{directions - 1} or WAIT, not {self.actions[bad[0]]}")
+        if not np.array_equal(odd, self.jumps[:, 0]):
+            raise PlanError("jumps must list every JUMP of actions in ascending order")
+        if ((self.jumps[:, 1] < 0) | (self.jumps[:, 1] >= self.scenario.area.cell_count)).any():
+            raise PlanError("jumps must lead to cells of the area")
+
+    @cached_property
+    def jump_tables(self) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
+        """Index of each jump (closed by one beyond all actions) and the site it leads to, as kernels take them."""
+        at = np.append(self.jumps[:, 0], np.iinfo(np.int64).max)
+        return read_only(at), self.scenario.area.layout.cell_to_site(np.append(self.jumps[:, 1], 0))
+
+    @cached_property
+    def _replayed(self) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+        """Last cell, cost of the moves and number of waits of each robot."""
+        from trihex.plans.kernels.replay import replay
+
+        area, robots = self.scenario.area, self.scenario.robot_count
+        site = np.empty(robots, dtype=np.int32)
+        distance, waits = np.empty(robots, dtype=np.int64), np.empty(robots, dtype=np.int64)
+        replay(
+            area.layout.cell_to_site(self.scenario.robots),
+            self.actions,
+            self.first_action,
+            area.layout.offset_of_direction,
+            area.tessellation.cost_of_direction,
+            *self.jump_tables,
+            site,
+            distance,
+            waits,
+        )
+        return read_only(area.layout.site_to_cell(site)), read_only(distance), read_only(waits)
+
+    @property
+    def last_cell_of_robot(self) -> NDArray[np.int64]:
+        """Number of the cell in which the actions of each robot end, shape (robots,)."""
+        return self._replayed[0]
+
+    @cached_property
+    def arrived(self) -> NDArray[np.bool_]:
+        """Whether each robot ends on a destination, shape (robots,)."""
+        return read_only(np.isin(self.last_cell_of_robot, self.scenario.destinations))
+
+    @cached_property
+    def arrival_step_of_robot(self) -> NDArray[np.int64]:
+        """The step in which each robot enters its destination, -1 if it never does, shape (robots,)."""
+        return read_only(np.where(self.arrived, np.diff(self.first_action), -1))
+
+    @property
+    def distance_of_robot(self) -> NDArray[np.int64]:
+        """d_r, the cost of the moves of each robot."""
+        return self._replayed[1]
+
+    @cached_property
+    def waiting_of_robot(self) -> NDArray[np.int64]:
+        """w_r, the number of waits of each robot times w_t."""
+        return read_only(self._replayed[2] * self.scenario.waiting_cost)
+
+    @cached_property
+    def time_of_robot(self) -> NDArray[np.int64]:
+        """F_t, the list of t_r = d_r + w_r."""
+        return read_only(self.distance_of_robot + self.waiting_of_robot)
+
+    @property
+    def steps(self) -> int:
+        """Number of steps until the last robot has arrived (the makespan)."""
+        return int(np.diff(self.first_action).max(initial=0))
+
+    @property
+    def total_time(self) -> int:
+        """Sum of t_r over the robots that arrive: what the planners minimise."""
+        return int(self.time_of_robot[self.arrived].sum())
+
+    def cells_by_step(self) -> Iterator[NDArray[np.int64]]:
+        """Yield the cell of each robot after step 0, 1, ..., `steps`; -1 once it has left the area."""
+        from trihex.plans.kernels.replay import advance
+
+        layout = self.scenario.area.layout
+        site = layout.cell_to_site(self.scenario.robots)
+        arrival = np.where(self.arrived, self.arrival_step_of_robot, np.iinfo(np.int64).max)
+        for step in range(self.steps + 1):
+            yield np.where(arrival <= step, -1, layout.site_to_cell(site))
+            advance(self.actions, self.first_action, step, layout.offset_of_direction, *self.jump_tables, site)
+
+    def sets_at(self, step: int) -> RobotSets:
+        """Return the sets of the paper (section 2.1.1) in step 1, 2, ..., `steps`.
+
+        Raises
+        ------
+        PlanError
+            If there is no such step.
+        """
+        if not 1 <= step <= self.steps:
+            raise PlanError(f"step must be 1..{self.steps}, not {step}")
+        length = np.diff(self.first_action)
+        is_final = self.arrived & (length < step)
+        acts = length >= step
+        action = np.full(length.size, WAIT, dtype=np.uint8)
+        action[acts] = self.actions[self.first_action[:-1][acts] + step - 1]
+        is_filled = acts & (action != WAIT)
+        return RobotSets(
+            begin=np.flatnonzero(~is_final),
+            filled=np.flatnonzero(is_filled),
+            waiting=np.flatnonzero(~is_final & ~is_filled),
+            final=np.flatnonzero(is_final),
+        )
+
+
+class RobotSets(NamedTuple):
+    """Numbers of the robots in each set of the paper during one step.
+
+    begin: not arrived before the step; filled: those of them that move in it; waiting: those that do not; final:
+    arrived before the step. begin = filled + waiting, and begin and final part the robots.
+    """
+
+    begin: NDArray[np.int64]
+    filled: NDArray[np.int64]
+    waiting: NDArray[np.int64]
+    final: NDArray[np.int64]
+
+
+def plan_from_lists(scenario: Scenario, actions: list[list[int]], **names: Any) -> Plan:
+    """Return the plan in which robot r takes ``actions[r]``; for plans made by hand."""
+    first = np.cumsum([0, *(len(own) for own in actions)])
+    flat = np.array([action for own in actions for action in own], dtype=np.uint8) if first[-1] else _NO_ACTIONS
+    return Plan(scenario, flat, first, **names)
+
+
+def follow(plan: Plan, step: int, next_step: int, site: NDArray[np.int32]) -> None:
+    """Move `site` of all robots from one step to another, some 10^7 actions a call."""
+    from trihex.plans.kernels.frames import follow
+
+    offset, some = plan.scenario.area.layout.offset_of_direction, max(1, 10_000_000 // (next_step - step))
+    for first in range(0, site.size, some):
+        last = min(site.size, first + some)
+        follow(plan.actions, plan.first_action, first, last, step, next_step, offset, *plan.jump_tables, site)

@@ -1,0 +1,5 @@
+"""Running: a world that changes while robots move."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

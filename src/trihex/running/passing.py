@@ -1,0 +1,272 @@
+"""Passing order: in which order robots pass each cell, lattice vertex and destination, so that late ones do no harm."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trihex.errors import PlanError
+from trihex.kernels.codes import JUMP, LATE, WAIT
+from trihex.plans import Plan
+from trihex.record import Record, read_only
+from trihex.running.run import ARRIVED, GOING, Run
+
+Ints = NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
+class PassingOrder(Record):
+    """What must come before what, if robots are to do the moves of a plan at other times than it says.
+
+    Moves are numbered robot by robot, waits left out. A robot may make its next move as soon as
+
+    - the robot that is in the cell before it leaves it in the same step or has left it,
+    - the robot that passes the lattice vertex before it has passed it in an earlier step,
+    - a destination of capacity c has taken the robot that enters it c places earlier, in an earlier step.
+
+    Everything that must come first is earlier in the plan, or in the same step of it. So whoever is first in the plan
+    of those not done can always move: no delay makes robots collide, or wait for each other for ever.
+
+    Parameters
+    ----------
+    plan : Plan
+    first_move : int64 array, shape (robots + 1,)
+        Robot r has the moves ``first_move[r]`` to ``first_move[r + 1]``.
+    action_of_move : uint8 array
+    leaves_before, vertex_before, entry_before : int64 arrays
+        For each move the one that must come before it by each of these rules, -1 if there is none.
+    """
+
+    plan: Plan
+    first_move: Ints
+    action_of_move: NDArray[np.uint8]
+    leaves_before: Ints
+    vertex_before: Ints
+    entry_before: Ints
+
+    @cached_property
+    def robot_of_move(self) -> Ints:
+        """Who makes each move."""
+        return read_only(np.repeat(np.arange(self.first_move.size - 1), np.diff(self.first_move)))
+
+    @cached_property
+    def enters_after(self) -> Ints:
+        """For each move the one that enters the cell that it leaves, -1 if there is none."""
+        after = np.full(self.leaves_before.size, -1, dtype=np.int64)
+        has = np.flatnonzero(self.leaves_before >= 0)
+        after[self.leaves_before[has]] = has
+        return read_only(after)
+
+    def follow(self) -> Follower:
+        """Return what tells robots step by step who may move."""
+        return Follower(self)
+
+    def run(self, *, delay: float = 0.0, seed: int = 0, most_steps: int = 1_000_000) -> Run:
+        """Return the run in which robots keep to the order, each late in a step by chance.
+
+        Parameters
+        ----------
+        delay : float
+            The chance to be late, below 1.
+        seed : int
+        most_steps : int
+
+        Examples
+        --------
+        >>> from trihex import Area, Scenario, make_plan
+        >>> scenario = Scenario(Area("hexagonal", [[0, 0, 0, 0]]), destinations=[(3, 0)], robots=[(0, 0), (1, 0)])
+        >>> order = make_passing_order(make_plan(scenario))
+        >>> order.run().steps, order.run(delay=0.5, seed=1).steps
+        (3, 10)
+        """
+        if not 0 <= delay < 1:
+            raise PlanError(f"delay must be a number from 0 to below 1, not {delay!r}")
+        follower = self.follow()
+        rows: list[NDArray[np.uint8]] = []
+        robots = self.plan.scenario.robot_count
+        while not follower.is_over and len(rows) < most_steps:
+            late = (
+                np.random.default_rng([seed, len(rows) + 1]).random(robots) < delay if delay else np.zeros(robots, bool)
+            )
+            is_going = follower.is_going
+            row = follower.step(np.flatnonzero(late))
+            row[late & is_going] = LATE
+            rows.append(row)
+        actions = np.array(rows, dtype=np.uint8).reshape(len(rows), robots)
+        return self._record(actions, follower, delay, seed)
+
+    def _record(self, actions: NDArray[np.uint8], follower: Follower, delay: float, seed: int) -> Run:
+        plan, robots = self.plan, self.plan.scenario.robot_count
+        arrived = plan.arrived & ~follower.is_going
+        is_move = (actions != WAIT) & (actions != LATE)
+        last = np.where(is_move.any(axis=0), len(actions) - np.argmax(is_move[::-1], axis=0), 0) if len(actions) else 0
+        stays = np.full(robots, -1, dtype=np.int64)
+        return Run(
+            plan.scenario,
+            plan.planner,
+            None,
+            delay,
+            seed,
+            (),
+            plan.scenario.robots,
+            np.zeros(robots, dtype=np.int64),
+            np.where(arrived, last, stays),
+            np.where(arrived, np.uint8(ARRIVED), np.uint8(GOING)),
+            actions,
+            np.zeros(plan.scenario.area.barriers.shape, dtype=np.int32),
+            np.where(plan.arrived, stays, 0),
+            np.zeros((len(actions), 2), dtype=np.int64),
+        )
+
+
+@dataclass(eq=False)
+class Follower:
+    """Who may move in each step, given who is late; robots keep to the order and else move as early as they can."""
+
+    order: PassingOrder
+    _at: Ints = field(init=False)
+    _stack: Ints = field(init=False)
+
+    def __post_init__(self) -> None:
+        self._at = self.order.first_move[:-1].copy()
+        self._stack = np.empty_like(self._at)
+
+    @property
+    def is_going(self) -> NDArray[np.bool_]:
+        """Whether each robot has moves left."""
+        return np.asarray(self._at < self.order.first_move[1:])
+
+    @property
+    def is_over(self) -> bool:
+        """Whether all moves are done."""
+        return not self.is_going.any()
+
+    def step(self, late: Iterable[int] = ()) -> NDArray[np.uint8]:
+        """Return the action of each robot in this step, and take it as done; `late` robots cannot move."""
+        from trihex.running.kernels.passing import choose
+
+        order, is_late = self.order, np.zeros(self._at.size, dtype=bool)
+        is_late[np.fromiter(late, dtype=np.int64)] = True
+        moves = np.zeros(self._at.size, dtype=bool)
+        choose(
+            order.first_move[1:],
+            order.robot_of_move,
+            order.leaves_before,
+            order.enters_after,
+            order.vertex_before,
+            order.entry_before,
+            self._at,
+            is_late,
+            self._stack,
+            moves,
+        )
+        action = np.full(self._at.size, WAIT, dtype=np.uint8)
+        action[moves] = order.action_of_move[self._at[moves]]
+        self._at += moves
+        return action
+
+
+def make_passing_order(plan: Plan) -> PassingOrder:
+    """Return the order in which robots pass each cell, lattice vertex and destination in a plan.
+
+    Parameters
+    ----------
+    plan : Plan
+        A safe one.
+
+    Raises
+    ------
+    PlanError
+        If two robots are in one cell, pass one vertex, or exchange cells in a step, or a robot jumps.
+    """
+    from trihex.running.kernels.passing import lay_out
+
+    if (plan.actions == JUMP).any():
+        raise PlanError("a plan in which robots jump has no order of passing")
+    scenario, layout = plan.scenario, plan.scenario.area.layout
+    is_move = plan.actions != WAIT
+    first_move = np.concatenate([[0], np.cumsum(is_move)])[plan.first_action]
+    moves = int(first_move[-1])
+    step = np.empty(moves, dtype=np.int64)
+    here, there, passed = (np.empty(moves, dtype=np.int32) for _ in range(3))
+    lay_out(
+        layout.cell_to_site(scenario.robots),
+        plan.actions,
+        plan.first_action,
+        layout.offset_of_direction,
+        layout.vertex_of_direction,
+        scenario.area.tessellation.edge_count,
+        first_move,
+        step,
+        here,
+        there,
+        passed,
+    )
+    is_entry = np.isin(there, layout.cell_to_site(scenario.destinations))
+    vertex, entry = np.full(moves, -1, dtype=np.int64), np.full(moves, -1, dtype=np.int64)
+    if scenario.crossing == "forbid":
+        _chain(np.flatnonzero(passed >= 0), passed, step, 1, vertex, "pass one lattice vertex")
+    if scenario.destination_capacity is not None:
+        capacity = scenario.destination_capacity
+        _chain(
+            np.flatnonzero(is_entry), there, step, capacity, entry, f"are more than {capacity} to enter a destination"
+        )
+    leaves = _leaves_before(plan, first_move, step, there, is_entry)
+    return PassingOrder(
+        plan,
+        read_only(first_move),
+        read_only(plan.actions[is_move]),
+        read_only(leaves),
+        read_only(vertex),
+        read_only(entry),
+    )
+
+
+def _chain(moves: Ints, place: NDArray[np.int32], step: Ints, apart: int, before: Ints, words: str) -> None:
+    """Let each of `moves` come after the one `apart` places earlier at the same place."""
+    moves = moves[np.lexsort((step[moves], place[moves]))]
+    early, later = moves[:-apart], moves[apart:]
+    is_same = place[early] == place[later]
+    early, later = early[is_same], later[is_same]
+    if (step[early] == step[later]).any():
+        raise PlanError(
+            f"the order of a plan needs a safe one; in step {step[early][step[early] == step[later]][0]} robots {words}"
+        )
+    before[later] = early
+
+
+def _leaves_before(
+    plan: Plan, first_move: Ints, step: Ints, there: NDArray[np.int32], is_entry: NDArray[np.bool_]
+) -> Ints:
+    """Return for each move the one that leaves the cell that it enters."""
+    robots, moves = plan.scenario.robot_count, step.size
+    # Visits: one at each start, one by each move but those into destinations; each ends with the next move, if any.
+    by, stays = np.flatnonzero(~is_entry), np.arange(robots)
+    on_exit = np.isin(plan.scenario.robots, plan.scenario.destinations)
+    stays = stays[~on_exit]
+    site = np.concatenate([plan.scenario.area.layout.cell_to_site(plan.scenario.robots)[stays], there[by]])
+    since = np.concatenate([np.zeros(stays.size, dtype=np.int64), step[by]])
+    enters = np.concatenate([np.full(stays.size, -1, dtype=np.int64), by])
+    robot = np.searchsorted(first_move, by, side="right") - 1
+    leaves = np.concatenate([first_move[stays], by + 1])
+    leaves[leaves == first_move[np.concatenate([stays, robot]) + 1]] = -1  # who has no move left stays
+    order = np.lexsort((since, site))
+    early, later = order[:-1], order[1:]
+    is_same = site[early] == site[later]
+    early, later = early[is_same], later[is_same]
+    until = np.where(leaves[early] >= 0, step[leaves[early]] if moves else 0, np.iinfo(np.int64).max)
+    if (until > since[later]).any():
+        raise PlanError(
+            f"the order of a plan needs a safe one; in step {since[later][until > since[later]][0]} robots share a cell"
+        )
+    before = np.full(moves, -1, dtype=np.int64)
+    before[enters[later]] = leaves[early]
+    has = np.flatnonzero(before >= 0)
+    exchange = has[before[before[has]] == has]
+    if exchange.size:
+        raise PlanError(f"the order of a plan needs a safe one; in step {step[exchange[0]]} robots exchange cells")
+    return before

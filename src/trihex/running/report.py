@@ -1,0 +1,118 @@
+"""Run report: the numbers of one run, beside what could be had with full knowledge of a world at rest."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from trihex.bounds import LowerBound, make_lower_bound
+from trihex.fields import make_n_scheme
+from trihex.planners import make_plan
+from trihex.plans import Plan
+from trihex.record import Record
+from trihex.running.audit import RunAudit, audit_run
+from trihex.running.run import BROKEN, GOING, LEFT, Run
+
+
+@dataclass(frozen=True, eq=False)
+class RunReport(Record):
+    """What a run cost, what the judge says, and what the same robots need if they know all and nothing happens.
+
+    Parameters
+    ----------
+    run : Run
+    audit : RunAudit
+    reference : Plan
+        Of the world as it was at the beginning, without events or delays.
+    bound : LowerBound
+        What no such plan can beat.
+    seconds : tuple of float
+        How long each step took; empty if not known.
+    """
+
+    run: Run
+    audit: RunAudit
+    reference: Plan
+    bound: LowerBound
+    seconds: tuple[float, ...] = ()
+
+    @property
+    def price(self) -> float | None:
+        """How much longer the robots took than in the reference: total_time / total_time of the reference - 1.
+
+        None where it has no meaning: not the same robots arrive in both.
+        """
+        own, other = self.run.arrived, self.reference.arrived
+        if own.size != other.size or (own != other).any():
+            return None
+        return self.run.total_time / self.reference.total_time - 1 if self.reference.total_time else 0.0
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the numbers: plain ones, strings and None, ready for JSON."""
+        run, scenario, area = self.run, self.run.scenario, self.run.scenario.area
+        state, times = run.state_of_robot, 1000 * np.array(self.seconds or (np.nan,))
+        accepted = sum(occurrence.is_accepted for occurrence in run.occurrences)
+        milliseconds = {"median": float(np.median(times)), "worst": float(times.max())} if self.seconds else None
+        return {
+            "area": area.name,
+            "tessellation": area.tessellation.name,
+            "neighbourhood": area.tessellation.neighbourhood,
+            "costs": area.tessellation.costs,
+            "corners": scenario.corners,
+            "crossing": scenario.crossing,
+            "destination_capacity": scenario.destination_capacity,
+            "waiting_cost": int(scenario.waiting_cost),
+            "planner": run.planner,
+            "sense": None if run.sensor is None else float(run.sensor.radius),
+            "line_of_sight": None if run.sensor is None else run.sensor.line_of_sight,
+            "delays": run.delay,
+            "seed": run.seed,
+            "robots": int(run.robots.size),
+            "arrived": int(np.count_nonzero(run.arrived)),
+            "cut_off": int(np.count_nonzero(state == GOING)),
+            "left": int(np.count_nonzero(state == LEFT)),
+            "broken": int(np.count_nonzero(state == BROKEN)),
+            "events": accepted,
+            "refused_events": len(run.occurrences) - accepted,
+            "steps": run.steps,
+            "total_time": run.total_time,
+            "reference_time": self.reference.total_time,
+            "reference_planner": self.reference.planner,
+            "price": self.price,
+            "lower_bound": self.bound.value,
+            "lower_bound_name": self.bound.name,
+            "conflicts": self.audit.conflict_count,
+            "known": float(np.mean(run.known_since >= 0)),
+            "repairs": int(run.touched[:, 0].sum()),
+            "cells_touched": int(run.touched[:, 1].sum()),
+            "milliseconds_a_step": milliseconds,
+        }
+
+
+def make_run_report(run: Run, *, reference: Plan | str = "fcost", seconds: Sequence[float] = ()) -> RunReport:
+    """Judge a run, plan the same with full knowledge, and put the numbers together.
+
+    Parameters
+    ----------
+    run : Run
+    reference : Plan or str
+        What to compare with: a plan, or the planner that makes it.
+    seconds : sequence of float
+        How long each step took, as `Trial.seconds` has it.
+
+    Examples
+    --------
+    >>> from trihex import Area, Scenario
+    >>> from trihex.running.trial import Trial
+    >>> scenario = Scenario(Area("square", [[0, 0, 0], [0, 1, 0]]), destinations=[(2, 1)], robots=[(0, 1)])
+    >>> report = make_run_report(Trial(scenario, sensor=0).run())
+    >>> report.price, report.audit.is_clean
+    (0.0, True)
+    """
+    n_scheme = make_n_scheme(run.scenario)
+    if isinstance(reference, str):
+        reference = make_plan(run.scenario, reference, n_scheme=n_scheme)
+    return RunReport(run, audit_run(run), reference, make_lower_bound(n_scheme), tuple(seconds))

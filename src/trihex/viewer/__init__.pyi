@@ -1,0 +1,12 @@
+from .launch import (
+    open_viewer as open_viewer,
+)
+from .page import (
+    PAGE_SUFFIXES as PAGE_SUFFIXES,
+)
+from .page import (
+    write_page as write_page,
+)
+from .widget import (
+    make_widget as make_widget,
+)

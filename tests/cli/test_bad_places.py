@@ -1,0 +1,184 @@
+"""Bad input of places in metres: exit status 2 and one line each; and all mistakes as the table in docs/mistakes.md.
+
+``python -m tests.cli.test_bad_places`` writes the table anew.
+"""
+
+# A row is a mistake and its message; broken lines would hide the table.
+# ruff: noqa: E501
+
+import os
+import sys
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from PIL import Image
+
+from tests.cli import test_bad_input
+from trihex import Area, Scenario, write_plan
+from trihex.cli import main
+from trihex.plans import plan_from_lists
+
+TABLE = Path(__file__).parents[2] / "docs" / "mistakes.md"
+YAML = "image: house.pgm\nresolution: 0.1\norigin: [0, 0, 0]\nnegate: 0\n"
+SQUARE = [[0, 0], [9, 0], [9, 6], [0, 6], [0, 0]]
+GEOJSON = (
+    '{"type": "Feature", "properties": {"kind": "free"}, "geometry": {"type": "Polygon", "coordinates": ['
+    + str(SQUARE)
+    + "]}}"
+)
+SIZE = ["--cell-size", "0.5", "--robot-radius", "0.1"]
+AIM = ["--destination", "2.2,2.2m"]
+ROBOTS = ["--robots", "3", "--planner", "greedy"]
+PLAN = ["plan", "house.yaml", *SIZE, *AIM, *ROBOTS]
+BAD = ["plan", "bad", *SIZE, *AIM, *ROBOTS]
+
+# As in test_bad_input: what the file `bad` holds, the command, and what it says.
+CASES = {
+    # sizes
+    "map without cell size": (None, ["plan", "house.yaml", *AIM, *ROBOTS], "house.yaml: a ROS map (8 by 6 metres) is measured in metres: say how far apart the centres of neighbouring cells shall be, cell_size 0.5 for half a metre (--cell-size on the command line)"),
+    "cells too small for two robots": (None, ["plan", "house.yaml", "--cell-size", "0.5", "--robot-radius", "0.15", *AIM, *ROBOTS], "cell_size must be at least 0.6 metres on hexagonal cells for two robots of radius 0.15 to pass each other (they come as near as 0.5 of it), not 0.5; at that size the radius may be at most 0.125"),
+    "cells too small for triangles": (None, [*PLAN, "--tessellation", "triangular"], "cell_size must be at least 0.6111 metres on triangular cells for two robots of radius 0.1"),
+    "cells far too small": (None, ["plan", "house.yaml", "--cell-size", "0.0001", *AIM, *ROBOTS], "cell_size must be at least 0.0016 metres for a world of 8 by 6 metres (at most 25000000 cells), not 0.0001"),
+    "cell size of nothing": (None, [*PLAN, "--cell-size", "0"], "--cell-size must be a number above 0, not '0'"),
+    "radius for letters": (None, ["plan", "world.txt", *SIZE, *ROBOTS], "world.txt: has one cell for each letter; robot_radius needs a place with walls in metres"),
+    "robots too large for the place": (None, ["plan", "house.yaml", "--cell-size", "8", "--robot-radius", "2", *AIM, *ROBOTS], "destination 0 must stand on a free cell; (0, 0) at (4.6188, 2) metres is a barrier: something stands too near for robots of radius 2"),
+    "crossing of robots with a radius": (None, [*PLAN, "--tessellation", "square", "--crossing", "allow"], "crossing must be 'forbid' for robots of radius 0.1, not 'allow': two that pass one vertex meet there"),
+    "robots that enter together": (None, [*PLAN, "--destination-capacity", "2"], "destination_capacity must be 1 for robots of radius 0.1, not 2: those that enter together meet there; name more destinations instead"),
+    # ROS maps
+    "ROS map without resolution": (YAML.replace("resolution: 0.1\n", ""), BAD, "bad: a ROS map must have the key 'resolution'"),
+    "ROS map with a slip": (YAML.replace("resolution", "resolutoin"), BAD, "bad: a ROS map must have the key 'resolution'; is it 'resolutoin'?"),
+    "resolution in words": (YAML.replace("0.1", "fine"), BAD, "bad: resolution must be a number, not 'fine'"),
+    "resolution below 0": (YAML.replace("0.1", "-0.1"), BAD, "bad: resolution must be between 1e-9 and 1e9 metres, not -0.1"),
+    "origin of one number": (YAML.replace("[0, 0, 0]", "0"), BAD, "bad: origin must be a list [x, y, yaw], not '0'"),
+    "origin that does not end": (YAML.replace("[0, 0, 0]", "[0, 0"), BAD, "bad: line 3: the list of origin must end with ] on the same line"),
+    "thresholds the wrong way round": (YAML + "free_thresh: 0.9\n", BAD, "bad: thresholds must be 0 <= free_thresh <= occupied_thresh <= 1, not 0.9 and 0.65"),
+    "unknown mode": (YAML + "mode: ternary\n", BAD, "bad: mode must be one of trinary, scale, raw, not 'ternary'; did you mean 'trinary'?"),
+    "negate in words": (YAML.replace("negate: 0", "negate: perhaps"), BAD, "bad: negate must be 0 or 1, not 'perhaps'"),
+    "key twice": (YAML + "negate: 1\n", BAD, "bad: line 5: negate is there twice"),
+    "line that is no key": (YAML + "robots\n", BAD, "bad: line 5: must be 'key: value', not 'robots'"),
+    "missing image": (YAML.replace("house.pgm", "hut.pgm"), BAD, "hut.pgm: No such file or directory"),
+    "map that is its own image": (YAML.replace("house.pgm", "bad"), BAD, "bad: is no image that trihex reads (PNG, PPM, BMP, GIF, JPEG)"),
+    # images
+    "torn image": (b"P5\n40 40\n255\n" + bytes(70), ["plan", "bad", "--destination", "0,0", *ROBOTS], "bad: the image is damaged: *"),
+    "image of 10 gigapixels": (b"P5\n100000 100000\n255\n" + bytes(70), ["plan", "bad", "--destination", "0,0", *ROBOTS], "bad: an image may have at most 100000000 pixels"),
+    "image without a measure": (None, ["plan", "house.pgm", *SIZE, *AIM, *ROBOTS], "house.pgm: an image has no measure: say how many metres a pixel is wide, resolution 0.05 for five centimetres (--resolution on the command line)"),
+    "radius without a cell size": (None, ["plan", "house.pgm", "--robot-radius", "0.1", "--destination", "4,4", *ROBOTS], "house.pgm: robot_radius and resolution need cell_size, the edge step of a cell in metres"),
+    "brightness in per cent": (None, ["plan", "house.pgm", "--threshold", "50", "--destination", "4,4", *ROBOTS], "--threshold must be a number from 0 to 1, not '50'"),
+    "unknown kind of unknown": (None, [*PLAN, "--unknown", "fre"], "--unknown must be one of barrier, free, not 'fre'; did you mean 'free'?"),
+    # polygons
+    "JSON cut short": (GEOJSON[:-2], BAD, "bad: is no JSON: *delimiter"),
+    "unknown kind": (GEOJSON.replace('"free"', '"obstacles"'), BAD, "bad: feature 0: kind must be one of free, obstacle, destination, robot, not 'obstacles'; did you mean 'obstacle'?"),
+    "unknown type": (GEOJSON.replace("Polygon", "Polygone"), BAD, "bad: feature 0: type must be one of *, not 'Polygone'; did you mean 'Polygon'?"),
+    "open ring": (GEOJSON.replace(", [0, 0]]", "]"), BAD, "bad: feature 0: is no Polygon: a ring must end where it begins"),
+    "ring in words": (GEOJSON.replace("[9, 0]", '["nine", 0]'), BAD, "bad: feature 0: is no Polygon: coordinates must be finite numbers in lists as deep as its type asks for"),
+    "ring that crosses itself": (GEOJSON.replace("[9, 0], [9, 6]", "[9, 6], [9, 0]"), BAD, "bad: a Polygon is invalid: Self-intersection"),
+    "nothing free": (GEOJSON.replace('"free"', '"obstacle"'), BAD, "bad: there must be a polygon that is free; there is none with an area"),
+    "WKT cut short": ("POLYGON ((0 0, 9 0", BAD, "bad: is no WKT: *end of stream"),
+    "WKT with curves": ("CURVEPOLYGON (CIRCULARSTRING (0 0, 4 0, 4 4, 0 4, 0 0))", ["plan", "bad.wkt", *SIZE, *AIM, *ROBOTS], "bad.wkt: is no WKT: *"),
+    # places
+    "destination outside, in metres": (None, ["plan", "house.yaml", *SIZE, "--destination", "20,2m", *ROBOTS], "--destination: point (20, 2) metres lies outside the area"),
+    "destination half in metres": (None, ["plan", "house.yaml", *SIZE, "--destination", "2m", *ROBOTS], "--destination in metres must be X,Ym, such as 3.2,-1m, not '2m'"),
+    "metres in an area of cells": (None, ["plan", "world.txt", "--destination", "2,2m", *ROBOTS], "--destination: the area is measured in cells, not in metres; give it a frame (cell_size)"),
+    "start outside, in metres": ("x_metres,y_metres\n1.2,2.2\n20,2\n", [*PLAN[:-4], "--planner", "greedy", "--starts", "bad"], "bad: line 3: point (20, 2) metres lies outside the area"),
+    "start in words": ("x_metres,y_metres\n1.2,two\n", [*PLAN[:-4], "--planner", "greedy", "--starts", "bad"], "bad: line 2: must be two numbers, not '1.2,two'"),
+    "scen of another map": ("version 1\n0\ta.map\t9\t9\t0\t0\t1\t1\t2\n", ["plan", "world.txt", "--planner", "greedy", "--starts", "bad"], "bad: line 2: is for an area of 9 x 9 cells, not of 3 x 2"),
+    "scen with a column too few": ("version 1\n0\ta.map\t3\t2\t0\t0\t1\t1\n", ["plan", "world.txt", "--planner", "greedy", "--starts", "bad"], "bad: line 2: must have 9 columns *, not 8"),
+    # outputs
+    "waypoints of no kind": (None, [*PLAN, "--waypoints", "w.xlsx"], "w.xlsx: the suffix of waypoints must be one of .csv, .yaml, .json, .geojson, .sqlite, not '.xlsx'"),
+    "speed below 0": (None, [*PLAN, "--waypoints", "w.csv", "--speed", "-1"], "--speed must be a number above 0, not '-1'"),
+    "hexagons for mapf-visualizer": (None, ["convert", "plan.npz", "p.txt"], "p.txt: mapf-visualizer draws squares only; the plan is hexagonal"),
+    "metres in a scenario of letters": (None, ["convert", "house.geojson", "p.txt"], "house.geojson: a place drawn by polygons is measured in metres"),
+    "torn Parquet": (b"PAR1" + bytes(40) + b"PAR1", ["check", "bad", "house.yaml", *SIZE, *AIM], "bad: is no whole Parquet file of a plan: *"),
+    "Parquet without its area": (b"PAR1" + bytes(40) + b"PAR1", ["check", "bad"], "bad does not hold its area: add AREA"),
+}  # fmt: skip
+
+
+def fill(folder):
+    """Put into `folder` what the commands of all rows need."""
+    for name, text in test_bad_input.FILES.items():
+        (folder / name).write_text(text)
+    pixels = np.full((60, 80), 254, dtype=np.uint8)
+    pixels[[0, -1]] = pixels[:, [0, -1]] = 0
+    Image.fromarray(pixels).save(folder / "house.pgm")
+    (folder / "house.yaml").write_text(YAML)
+    (folder / "house.geojson").write_text(GEOJSON)
+    area = Area("hexagonal", [[0, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 0]])
+    write_plan(plan_from_lists(Scenario(area, [(3, 0)], [(2, 0)]), [[2]]), folder / "plan.npz")
+
+
+def run(folder, content, command):
+    """Return the result of a row, and whether it left files behind."""
+    bad = next((word for word in command if word.startswith("bad")), None)
+    if content is not None:
+        (folder / bad).write_bytes(content if isinstance(content, bytes) else content.encode())
+    before = set(folder.iterdir())
+    result = CliRunner().invoke(main, command)
+    left = set(folder.iterdir()) - before
+    if content is not None:
+        (folder / bad).unlink()
+    return result, left
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("bad")
+    fill(folder)
+    here = Path.cwd()
+    os.chdir(folder)
+    yield folder
+    os.chdir(here)
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_bad_place(folder, case):
+    content, command, message = CASES[case]
+    result, left = run(folder, content, command)
+    head, _, tail = message.partition("*")
+    assert result.stderr.startswith(f"trihex: error: {head}")
+    assert tail in result.stderr
+    assert result.stderr.count("\n") == 1
+    assert (result.stdout, result.exit_code, left) == ("", 2, set())
+
+
+def table_lines(folder):
+    """Yield the lines of the table of all mistakes, with what trihex says to each."""
+    yield "# Mistakes, and what trihex says\n"
+    yield "Every row is run by the tests; `python -m tests.cli.test_bad_places` writes this page anew. Each time the exit status is"
+    yield "2, nothing is on the standard output, and no file is left behind. `bad` is the file with the mistake in it.\n"
+    yield "| mistake | in `bad` | command | message |"
+    yield "|---|---|---|---|"
+    for case, (content, command, message) in (test_bad_input.CASES | CASES).items():
+        result, _ = run(folder, content, command)
+        head, star, tail = message.partition("*")
+        words = " ".join(f"'{word}'" if " " in word else word for word in ["trihex", *command])
+        said = result.stderr.removeprefix("trihex: error: ").strip()
+        if star and tail in said:  # a list of names that grows, or the words of a library
+            said = f"{head}...{said[said.index(tail) :] if tail else ''}"
+        yield f"| {case} | {odd_lines(content)} | `{words}` | {said} |".replace("\0", "\\0")
+
+
+def odd_lines(content):
+    """Return the lines of a bad file that a good one would not have."""
+    if content is None:
+        return ""
+    if isinstance(content, bytes):
+        return f"`{content[:24]!r}`" + " ..." * (len(content) > 24)
+    good = [line for text in (YAML, test_bad_input.MAP) for line in text.splitlines()]
+    lines = [line for line in content.splitlines() if line not in good]
+    return f"`{' / '.join(lines)[:150]}`" if lines else ""
+
+
+def test_the_table_in_the_docs_is_what_trihex_says(folder):
+    anew = "\n".join(table_lines(folder)).splitlines()
+    assert TABLE.read_text().splitlines() == anew, "write the page anew: python -m tests.cli.test_bad_places"
+
+
+if __name__ == "__main__":
+    with TemporaryDirectory() as name:
+        fill(Path(name))
+        os.chdir(name)
+        TABLE.write_text("\n".join([*table_lines(Path(name)), ""]))
+    sys.exit()

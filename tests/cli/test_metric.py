@@ -1,0 +1,144 @@
+"""The command line on places in metres: from a ROS map to waypoints, scenarios and other formats, and `show`."""
+
+import json
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from PIL import Image
+
+from tests.oracles.continuous import boxes_of_pixels, find_contacts
+from trihex.cli import main
+
+SIZE = ["--cell-size", "0.4", "--robot-radius", "0.1"]
+PLACES = ["--destination", "2,2m", "--destination", "2,2.4m"]
+
+
+def run(*arguments):
+    planner = ["--planner", "greedy"] if arguments[0] == "plan" else []
+    return CliRunner().invoke(main, [str(argument) for argument in [*arguments, *planner]])
+
+
+@pytest.fixture
+def house(tmp_path, monkeypatch):
+    """The working folder holds a house of 8 x 6 metres; returns what is occupied in it."""
+    monkeypatch.chdir(tmp_path)
+    pixels = np.full((60, 80), 254, dtype=np.uint8)
+    pixels[[0, -1]] = pixels[:, [0, -1]] = pixels[20:40, 40] = 0
+    Image.fromarray(pixels).save("house.pgm")
+    (tmp_path / "house.yaml").write_text("image: house.pgm\nresolution: 0.1\norigin: [-1, -1, 0]\n")
+    return boxes_of_pixels(pixels == 0, 0.1, (-1.0, -1.0))
+
+
+@pytest.mark.parametrize("tessellation", ["hexagonal", "square"])
+def test_from_a_ros_map_to_safe_waypoints(house, tmp_path, tessellation):
+    size = ["--cell-size", "0.5", "--robot-radius", "0.1", "--tessellation", tessellation]
+    done = run("plan", "house.yaml", *size, *PLACES, "--robots", 20, "--waypoints", "w.csv", "--out", "p.npz")
+    assert done.exit_code == 0, done.output
+    assert "20 of 20 robots arrive" in done.output
+    assert find_contacts("w.csv", 0.1, house) == []
+    assert run("check", "p.npz").exit_code == 0
+
+
+def test_a_scenario_that_was_written_gives_the_same_plan_byte_for_byte(house, tmp_path):
+    first = ["--robots", 20, "--write-scenario", "s.toml", "--out", "1.npz", "--waypoints", "1.csv"]
+    assert run("plan", "house.yaml", *SIZE, *PLACES, *first).exit_code == 0
+    assert run("plan", "s.toml", "--out", "2.npz", "--waypoints", "2.csv").exit_code == 0
+    assert (tmp_path / "1.npz").read_bytes() == (tmp_path / "2.npz").read_bytes()
+    assert (tmp_path / "1.csv").read_bytes() == (tmp_path / "2.csv").read_bytes()
+
+
+def test_a_plan_in_metres_becomes_every_format_of_motion(house, tmp_path):
+    assert (
+        run("plan", "house.yaml", *SIZE, *PLACES, "--robots", 5, "--out", "p.npz", "--waypoints", "w.csv").exit_code
+        == 0
+    )
+    for name in ("w.json", "w.yaml", "w.geojson", "w.sqlite", "p.csv", "p.parquet"):
+        done = run("convert", "p.npz", name)
+        assert done.exit_code == 0, done.output
+        assert (tmp_path / name).stat().st_size > 0
+    assert run("convert", "p.npz", "again.csv", "--waypoints").exit_code == 0
+    assert (tmp_path / "again.csv").read_bytes() == (tmp_path / "w.csv").read_bytes()
+    assert len(json.loads((tmp_path / "w.json").read_text())) == 5
+    assert run("check", "p.parquet", "house.yaml", *SIZE, *PLACES).exit_code == 0
+    refused = run("convert", "p.npz", "p.txt")
+    assert refused.exit_code == 2 and "mapf-visualizer draws squares only" in refused.output
+
+
+def test_starts_in_metres_and_from_scen(house, tmp_path):
+    (tmp_path / "starts.csv").write_text("x_metres,y_metres\n0,0\n5,3\n")
+    done = run("plan", "house.yaml", *SIZE, *PLACES, "--starts", "starts.csv")
+    assert done.exit_code == 0 and "2 of 2 robots arrive" in done.output
+    (tmp_path / "a.map").write_text("type octile\nheight 1\nwidth 4\nmap\n....\n")
+    (tmp_path / "a.scen").write_text("version 1\n0\ta.map\t4\t1\t3\t0\t1\t0\t2\n")
+    done = run("plan", "a.map", "--destination", "0,0", "--starts", "a.scen")
+    assert done.exit_code == 0 and "1 of 1 robots arrive" in done.output
+    assert "goals of a.scen are not used: all robots go to the destinations" in done.output
+
+
+def test_show_tells_and_draws_an_area(house):
+    done = run("show", "house.yaml", *SIZE, "--columns", 30)
+    lines = done.output.splitlines()
+    assert done.exit_code == 0
+    assert lines[:3] == [
+        "house: 23 x 15 cells, hexagonal, full neighbourhood; 256 free (74.2 %)",
+        "8.0829 x 6.2 metres, cell size 0.4, robot radius 0.1; north-west corner at (-1, 5), yaw 0",
+        "1 connected part, of 256 cells",
+    ]
+    assert len(lines) == 3 + 9 and set("".join(lines[3:])) <= set(".:+#")
+    assert lines[-1] == "#" * 23
+
+
+def test_a_scenario_tells_its_outputs_and_writes_them_beside_itself(house, tmp_path, monkeypatch):
+    first = ["--robots", 5, "--speed", "0.5", "--write-scenario", "s.toml", "--out", "p.npz", "--waypoints", "w.csv"]
+    assert run("plan", "house.yaml", *SIZE, *PLACES, *first, "--picture", "p.svg").exit_code == 0
+    text = (tmp_path / "s.toml").read_text()
+    assert '[outputs]\nplan = "p.npz"\npicture = "p.svg"\nwaypoints = "w.csv"\nspeed = 0.5\n' in text
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "elsewhere" / "s.toml").write_text(text.replace("p.svg", "p.png"))
+    before = {name: (tmp_path / name).read_bytes() for name in ("p.npz", "w.csv")}
+    assert run("plan", "elsewhere/s.toml", "--waypoints", "other.csv").exit_code == 0
+    assert (tmp_path / "elsewhere" / "p.npz").read_bytes() == before["p.npz"]
+    assert (tmp_path / "elsewhere" / "p.png").exists() and not (tmp_path / "elsewhere" / "w.csv").exists()
+    assert (tmp_path / "other.csv").read_bytes() == before["w.csv"]
+
+
+@pytest.mark.parametrize("output", ["../p.npz", "/p.npz", "a/../../p.npz", ""])
+def test_a_scenario_must_not_write_elsewhere(house, tmp_path, output):
+    assert run("plan", "house.yaml", *SIZE, *PLACES, "--robots", 2, "--write-scenario", "s.toml").exit_code == 0
+    (tmp_path / "s.toml").write_text((tmp_path / "s.toml").read_text() + f'[outputs]\nplan = "{output}"\n')
+    done = run("plan", "s.toml")
+    assert done.exit_code == 2 and "outputs.plan: must be a path beside the scenario or below it" in done.output
+
+
+def test_a_place_becomes_an_area_in_a_file_of_its_own(house, tmp_path):
+    assert run("convert", "house.yaml", "house.toml", *SIZE).exit_code == 0
+    assert run("show", "house.toml").output == run("show", "house.yaml", *SIZE).output
+    refused = run("convert", "house.yaml", "house.map", *SIZE)
+    assert refused.exit_code == 2 and "which this format cannot carry" in refused.output
+    done = run("plan", "house.toml", *PLACES, "--robots", 5)
+    assert done.exit_code == 0 and "5 of 5 robots arrive" in done.output
+
+
+def test_starts_of_scen_become_csv(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "a.map").write_text("type octile\nheight 1\nwidth 4\nmap\n....\n")
+    (tmp_path / "a.scen").write_text("version 1\n0\ta.map\t4\t1\t3\t0\t1\t0\t2\n")
+    assert run("convert", "a.scen", "a.csv", "--area", "a.map").exit_code == 0
+    assert (tmp_path / "a.csv").read_text() == "x,y\n3,0\n"
+    refused = run("convert", "a.scen", "b.csv")
+    assert refused.exit_code == 2 and "a.scen holds starts in an area: add --area AREA" in refused.output
+
+
+def test_compare_covers_a_place_anew_by_each_tessellation_that_fits(house):
+    size = ["--cell-size", "0.5", "--robot-radius", "0.1"]
+    done = run("compare", "house.yaml", *size, *PLACES, "--robots", 10, "--planners", "greedy")
+    assert done.exit_code == 0, done.output
+    assert [line.split()[0] for line in done.stdout.splitlines()[2:]] == ["hexagonal", "square"]
+    assert done.stderr.startswith("trihex: triangular is left out: cell_size must be at least 0.6111 metres")
+    done = run("compare", "house.yaml", *size, *PLACES, "--robots", 10, "--tessellations", "square,triangular")
+    assert (done.exit_code, done.stdout) == (2, "")
+    assert "at least 0.6111 metres on triangular cells" in done.stderr
+    done = run("compare", "house.yaml", "--cell-size", 0.2, "--robot-radius", 0.1, *PLACES, "--robots", 10)
+    assert done.exit_code == 2 and done.stderr.count("is left out") == 3
+    assert "no tessellation fits" in done.stderr

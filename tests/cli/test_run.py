@@ -1,0 +1,128 @@
+"""Command line: `trihex run`, what it prints, writes and answers."""
+
+import json
+import re
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from PIL import Image
+
+import trihex as th
+from trihex.cli import main
+from trihex.pictures.run_movie import RunFilm
+
+# Two rooms and a door.
+WORLD = "D..B...\n.......\nb.aB..c\n"
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    (tmp_path / "world.txt").write_text(WORLD)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def run(*command, status=0):
+    result = CliRunner().invoke(main, ["run", *map(str, command)])
+    assert result.exit_code == status, result.output
+    return result
+
+
+def test_it_prints_a_report(folder):
+    lines = run("world.txt", "--sense", "1").stdout.splitlines()
+    assert lines[0] == "world: hexagonal, 3 robots, planner fcost, sensing 1 cells"
+    assert lines[1].startswith("3 arrived in 6 steps, 0 cut off, 0 left, 0 broken; 0 events, 0 refused")
+    assert lines[2].startswith("total time ") and "with full knowledge and no events 110 (fcost)" in lines[2]
+    assert lines[-1] == "safe: no conflicts"
+
+
+def test_a_door_that_shuts_cuts_one_robot_off_and_the_answer_is_no(folder):
+    (folder / "events.csv").write_text("step,event,x,y,robot\n2,barrier,3,1,\n3,leave,,,9\n")
+    result = run("world.txt", "--events", "events.csv", "--summary", "summary.json", status=1)
+    assert "refused: robot must be one of 0..2, not 9" in result.stderr
+    assert "robot 2 is cut off, known after step 1" in result.stderr
+    summary = json.loads((folder / "summary.json").read_text())
+    assert (summary["arrived"], summary["cut_off"], summary["events"], summary["refused_events"]) == (2, 1, 1, 1)
+    assert summary["price"] is None and summary["conflicts"] == 0 and summary["sense"] is None
+
+
+def test_a_run_is_written_stopped_and_resumed(folder):
+    options = ("world.txt", "--delays", "0.3", "--seed", "3", "--robots", "6", "--sense", "2", "--line-of-sight")
+    run(*options, "--out", "whole.npz")
+    run(*options, "--out", "part.npz", "--max-steps", "3")
+    run("--resume", "part.npz", "--out", "rest.npz")
+    assert th.read_run("rest.npz") == th.read_run("whole.npz") != th.read_run("part.npz")
+    summary = json.loads(run(*options, "--summary", "-").stdout)
+    assert summary["delays"] == 0.3 and summary["seed"] == 3 and summary["milliseconds_a_step"]["worst"] > 0
+
+
+def test_pictures_and_movies_show_what_is_known(folder):
+    (folder / "events.toml").write_text('[[event]]\nstep = 3\nevent = "break"\nrobot = 2\n')
+    run("world.txt", "--sense", "0", "--events", "events.toml", "--picture", "run.svg", "--animation", "run.gif")
+    picture = (folder / "run.svg").read_text()
+    assert "first seen in step" in picture and "barrier not seen" in picture
+    with Image.open("run.gif") as movie:
+        assert movie.n_frames > 6 and movie.size[0] > 200
+    area, exits = th.read_area("world.txt", tessellation="square"), [(0, 0)]
+    record = th.Trial(th.Scenario(area, exits, [(6, 2)]), sensor=0).run()
+    film = RunFilm(record, 100, 300, "")
+    frames = list(film.frames())
+    assert len(frames) == film.pace.frame_count
+    fog = np.array([190, 198, 214])
+    seen = [np.count_nonzero((frame == fog).all(axis=-1)) for frame in frames]
+    assert seen[0] > seen[-1] and sorted(seen, reverse=True)[0] == seen[0]
+
+
+def test_what_is_known_is_coloured_by_the_step(folder):
+    area = th.Area("square", np.zeros((3, 12), dtype=bool))
+    record = th.Trial(th.Scenario(area, [(0, 1)], [(11, 1)]), sensor=1).run()
+    pixels = th.picture_of_run(record, width=120, title="", legend=False).to_array()
+    assert pixels.shape == (30, 120, 3)
+    assert not np.array_equal(pixels[3, 15], pixels[3, 105])  # seen late and seen at once
+
+
+@pytest.mark.parametrize(
+    ("command", "why"),
+    [
+        (("--sense", "3"), "there is no AREA"),
+        (("world.txt", "--line-of-sight"), "add --sense"),
+        (("world.txt", "--sense", "-1"), "sense must be a number from 0 to 100, not '-1'"),
+        (("world.txt", "--delays", "2"), "delays must be a number from 0 to 1"),
+        (("world.txt", "--delays", "1"), "delay must be a number from 0 to below 1"),
+        (("world.txt", "--planner", "gredy"), "did you mean 'greedy'"),
+        (("world.txt", "--events", "nothing.csv"), "No such file"),
+        (("world.txt", "--out", "run.csv"), r"suffix of a run must be one of \.npz"),
+        (("world.txt", "--resume", "run.npz"), "AREA cannot be told"),
+    ],
+)
+def test_wrong_use_is_told_in_one_line(folder, command, why):
+    result = run(*command, status=2)
+    assert len(result.stderr.splitlines()) == 1
+    assert re.search(why, result.stderr), result.stderr
+
+
+def test_robots_follow_plans_that_are_made_anew(folder):
+    assert "planner fcost" in run("world.txt", "--sense", "1", "--replan", "--budget", "5").stdout
+    assert "3 arrived" in run("world.txt", "--planner", "greedy", "--replan").stdout
+
+
+def test_a_plan_is_followed_in_its_order(folder):
+    CliRunner().invoke(main, ["plan", "world.txt", "--out", "plan.npz"])
+    punctual = run("--plan", "plan.npz").stdout
+    assert "3 arrived" in punctual and punctual.endswith("safe: no conflicts\n")
+    run("--plan", "plan.npz", "--delays", "0.3", "--seed", "1", "--out", "run.npz")
+    assert th.read_run("run.npz").arrived.all() and th.read_run("run.npz").delay == 0.3
+    assert "--sense cannot be told" in run("--plan", "plan.npz", "--sense", "2", status=2).stderr
+
+
+def test_a_movie_shows_destinations_as_they_are_in_each_step(folder):
+    area = th.Area("square", np.zeros((3, 12), dtype=bool))
+    events = [th.Event(2, "close", cell=(0, 1)), th.Event(3, "open", cell=(11, 0)), th.Event(3, "barrier", cell=(1, 1))]
+    record = th.Trial(th.Scenario(area, [(0, 1)], [(6, 1)]), events=events).run()
+    film = RunFilm(record, record.steps + 1, 120, "")
+    green = np.array([0, 158, 115])
+    x, y = film.sheet.body
+    places = [np.argwhere((frame[y : y + 30, x : x + 120] == green).all(axis=-1)) for frame in film.frames()]
+    columns = [sorted(set((found[:, 1] // 10).tolist())) for found in places]
+    assert columns[:2] == [[0], [0]] and columns[2] == [] and columns[3:] == [[11]] * len(columns[3:])

@@ -1,0 +1,89 @@
+"""Reports: the numbers of plans made by hand."""
+
+import json
+
+import pytest
+
+import trihex as th
+from trihex.kernels.codes import WAIT
+from trihex.plans import plan_from_lists
+
+ROW = th.Area("square", [[0, 0, 0, 0, 0, 1, 0]], "row")
+N, E, S, W = range(4)  # the edge directions of squares
+# Robot 0 waits once behind robot 1, robot 2 stands on the destination, robot 3 is walled in.
+SCENARIO = th.Scenario(ROW, [(4, 0)], [(1, 0), (2, 0), (4, 0), (6, 0)], seed=5)
+PLAN = plan_from_lists(SCENARIO, [[WAIT, E, E, E], [E, E], [], []], planner="hand")
+
+
+def test_the_summary_says_it_all():
+    report = th.make_report(PLAN, seconds={"plan": 0.25})
+    assert report.as_dict() == {
+        "area": "row",
+        "tessellation": "square",
+        "neighbourhood": "full",
+        "costs": "paper",
+        "corners": "allow",
+        "crossing": "forbid",
+        "destination_capacity": None,
+        "cells": 7,
+        "free_cells": 6,
+        "robots": 4,
+        "arrived": 3,
+        "unreachable": 1,
+        "seed": 5,
+        "planner": "hand",
+        "waiting_cost": 10,
+        "steps": 4,
+        "total_time": 60,
+        "total_distance": 50,
+        "total_waiting": 10,
+        "longest_time": 40,
+        "lower_bound": 50,
+        "lower_bound_name": "distance",
+        "gap": pytest.approx(0.2),
+        "optimal": False,
+        "conflicts": 0,
+        "seconds": {"read": None, "field": None, "plan": 0.25, "audit": None},
+    }
+    assert report.unreachable_robots.tolist() == [3]
+    assert json.loads(json.dumps(report.as_dict())) == report.as_dict()
+
+
+def test_a_proven_plan_is_its_own_bound():
+    report = th.make_report(plan_from_lists(SCENARIO, [[E, E, E], [E, E], [], []], optimal=True))
+    assert (report.optimal, report.lower_bound, report.lower_bound_name, report.gap) == (True, 50, "optimum", 0)
+
+
+def test_a_plan_that_attains_the_bound_is_proven_too():
+    report = th.make_report(plan_from_lists(SCENARIO, [[E, E, E], [E, E], [], []]))
+    assert (report.optimal, report.lower_bound_name, report.gap) == (True, "optimum", 0)
+
+
+@pytest.mark.parametrize("actions", [[[E, E, E], [], [], []], [[E, E, E], [E, E], [E], []]])
+def test_nothing_is_proven_by_a_plan_that_is_incomplete_or_unsafe(actions):
+    report = th.make_report(plan_from_lists(SCENARIO, actions, optimal=True))
+    assert (report.optimal, report.lower_bound_name) == (False, "distance")
+    assert report.audit.conflict_count > 0
+
+
+def test_there_is_no_gap_if_someone_who_could_does_not_arrive():
+    report = th.make_report(plan_from_lists(SCENARIO, [[], [E, E], [], []]))
+    assert (report.arrived_count, report.is_complete, report.gap) == (2, False, None)
+
+
+def test_gap_where_nobody_has_to_move():
+    scenario = th.Scenario(ROW, [(4, 0)], [(4, 0), (6, 0)])
+    assert th.make_report(plan_from_lists(scenario, [[], []])).gap == 0
+    free_waits = th.Scenario(ROW, [(4, 0)], [(4, 0)], waiting_cost=0)
+    assert th.make_report(plan_from_lists(free_waits, [[]])).gap == 0
+
+
+def test_what_is_at_hand_is_not_made_again():
+    bound, audit = th.LowerBound("mine", 30), th.audit_plan(PLAN)
+    report = th.make_report(PLAN, n_scheme=th.make_n_scheme(SCENARIO), audit=audit, lower_bound=bound)
+    assert report.audit is audit
+    assert (report.lower_bound, report.lower_bound_name, report.gap) == (30, "mine", 1.0)
+
+
+def test_no_gap_above_a_bound_of_nothing():
+    assert th.make_report(PLAN, lower_bound=th.LowerBound("nothing", 0)).gap is None

@@ -1,0 +1,174 @@
+"""The optimum against min-cost flow, max flow and integer programming over drawn cells; what makes it refuse."""
+
+import numpy as np
+import pytest
+
+import trihex as th
+from tests.oracles import flow as oracle_flow
+from tests.oracles.optimum import least_total_time
+from tests.strategies import random_scenario
+from trihex.optimum import Network, earliest, flow
+from trihex.planners import make_plan, optimal, planner_named
+
+
+def cannot_always_be_proven(scenario):
+    """Where an exchange of cells had to be parted, or one vertex serves moves of several costs."""
+    tessellation = scenario.area.tessellation
+    two_costs = tessellation.name == "triangular" and tessellation.costs == "euclidean"
+    return scenario.waiting_cost > tessellation.edge_cost or (two_costs and scenario.crossing == "forbid")
+
+
+def crowded_scenario(seed):
+    """A scenario of which a flow knows all rules."""
+    scenario = random_scenario(seed, sides=(3, 7), most_robots=24)
+    while cannot_always_be_proven(scenario):
+        seed += 100_000
+        scenario = random_scenario(seed, sides=(3, 7), most_robots=24)
+    return scenario
+
+
+@pytest.mark.parametrize("share", range(10))
+def test_the_least_total_time_is_that_of_or_tools(share):
+    for seed in range(share, 300, 10):
+        scenario = crowded_scenario(seed)
+        plan = make_plan(scenario, "optimal")
+        assert th.audit_plan(plan).is_clean
+        assert plan.optimal, seed
+        assert plan.total_time == oracle_flow.least_total_time(scenario, plan.steps + 5), seed
+
+
+def least_total_times_by(monkeypatch, module, find, seeds, **changes):
+    """Plan the optimum by one way only; check it against OR-tools and return what the way gave."""
+    found = []
+    for name, value in changes.items():
+        monkeypatch.setattr(module, name, value)
+    way = getattr(optimal, find)
+    monkeypatch.setattr(
+        optimal, find, lambda *arguments, **options: found.append(way(*arguments, **options)) or found[-1]
+    )
+    for seed in seeds:
+        scenario = crowded_scenario(seed)
+        plan = make_plan(scenario, "optimal")
+        assert th.audit_plan(plan).is_clean
+        assert plan.total_time == oracle_flow.least_total_time(scenario, plan.steps + 5), seed
+    return found
+
+
+@pytest.mark.parametrize("budget", [500_000, 20])
+def test_robots_served_one_after_another_cost_as_little(monkeypatch, budget):
+    changes = {"_meet_seldom": lambda network, cells: True, "_BUDGET": budget}
+    found = least_total_times_by(monkeypatch, flow, "make_flow_singly", range(1_000, 1_020), **changes)
+    given_up = sum(one is None for one in found)
+    assert given_up == 0 if budget > 20 else given_up > 0
+
+
+@pytest.mark.parametrize("budget", [500_000, 20])
+@pytest.mark.parametrize("planner", ["fcost", "greedy"])
+def test_slots_exchanged_for_earlier_ones_cost_as_little(monkeypatch, planner, budget):
+    monkeypatch.setattr(optimal, "make_flow_singly", lambda *arguments, **options: None)
+    monkeypatch.setattr(optimal, "plan_fcost", planner_named(planner))
+    changes = {"_BUDGET": budget, "_LOG": 16}
+    found = least_total_times_by(monkeypatch, earliest, "make_earliest_flow", range(2_000, 2_100), **changes)
+    assert len(found) >= 25
+
+
+@pytest.mark.parametrize("share", range(5))
+def test_the_ways_to_the_optimum_agree(monkeypatch, share):
+    monkeypatch.setattr(optimal, "make_flow_singly", lambda *arguments, **options: None)
+    compared = 0
+    for seed in range(share, 100, 5):
+        scenario = random_scenario(90_000 + seed, sides=(8, 24), most_robots=120)
+        for objective in ("time", "steps"):
+            with monkeypatch.context() as patch:
+                one = make_plan(scenario, "optimal", objective=objective)
+                patch.setattr(Network, "has_equal_steps", property(lambda self: False))
+                other = make_plan(scenario, "optimal", objective=objective)
+            if objective == "steps":
+                assert one.arrival_step_of_robot[one.arrived].sum() == other.arrival_step_of_robot[other.arrived].sum()
+            elif one.optimal and other.optimal:
+                assert one.total_time == other.total_time, seed
+                compared += 1
+    assert compared > 10
+
+
+@pytest.mark.parametrize("share", range(5))
+def test_the_last_arrival_is_that_of_max_flow(share):
+    for seed in range(share, 50, 5):
+        scenario = crowded_scenario(7_000 + seed)
+        plan = make_plan(scenario, "optimal", objective="steps")
+        assert th.audit_plan(plan).is_clean
+        arriving = np.count_nonzero(plan.arrived & (plan.arrival_step_of_robot > 0))
+        if arriving == 0:
+            continue
+        assert oracle_flow.most_arrivals(scenario, plan.steps) == arriving, seed
+        assert oracle_flow.most_arrivals(scenario, plan.steps - 1) < arriving, seed
+
+
+@pytest.mark.parametrize("share", range(5))
+def test_the_least_total_time_is_that_of_integer_programming(share):
+    proven = 0
+    for seed in range(share, 100, 5):
+        scenario = random_scenario(seed, sides=(1, 5), most_robots=9)
+        plan = make_plan(scenario, "optimal")
+        assert th.audit_plan(plan).is_clean
+        least = least_total_time(scenario, 8 + scenario.robot_count)
+        if plan.optimal:
+            assert plan.total_time == least, seed
+        else:
+            assert cannot_always_be_proven(scenario), seed
+            assert plan.total_time >= least, seed
+        proven += plan.optimal
+    assert proven >= 17
+
+
+@pytest.mark.parametrize("share", range(5))
+def test_the_least_sum_of_steps_is_that_of_integer_programming(share):
+    for seed in range(share, 40, 5):
+        scenario = random_scenario(seed, sides=(1, 5), most_robots=9)
+        plan = make_plan(scenario, "optimal", objective="steps")
+        assert th.audit_plan(plan).is_clean
+        steps = int(plan.arrival_step_of_robot[plan.arrived].sum())
+        assert steps == least_total_time(scenario, 8 + scenario.robot_count, count_steps=True), seed
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_bounds_below_and_planners_above(seed):
+    scenario = random_scenario(60_000 + seed, sides=(4, 9))
+    n_scheme = th.make_n_scheme(scenario)
+    plan = make_plan(scenario, "optimal", n_scheme=n_scheme)
+    assert plan.total_time >= th.make_lower_bound(n_scheme).value
+    if plan.optimal:
+        for planner in ("greedy", "fcost"):
+            assert plan.total_time <= make_plan(scenario, planner, n_scheme=n_scheme).total_time
+
+
+def test_what_would_not_fit_is_refused_with_the_estimate():
+    area = th.Area("hexagonal", np.zeros((30, 30), bool))
+    scenario = th.Scenario(area, [(0, 0)], th.random_robots(area, 200, avoid=[(0, 0)]))
+    with pytest.raises(
+        th.TooLargeError, match=r"at least \d+\.\d GiB \(\d+ steps of \d+ cells and vertices\), more than"
+    ):
+        make_plan(scenario, "optimal", memory_limit=1000)
+    with pytest.raises(th.PlanError, match="objective must be one of time, steps, not 'step'; did you mean 'steps'"):
+        make_plan(scenario, "optimal", objective="step")
+
+
+@pytest.mark.parametrize("tessellation", ["hexagonal", "triangular"])
+def test_a_search_that_outgrows_the_limit_is_refused_too(monkeypatch, tessellation):
+    area = th.make_caves_area(tessellation, 40, 40, seed=2)
+    scenario = th.Scenario(area, th.random_robots(area, 1, seed=2), th.random_robots(area, 300, seed=1))
+    needs = []
+
+    def check(network, cells, layers, need, limit):
+        needs.append(need)
+        check_as_ever(network, cells, layers, need, needs[0])
+
+    check_as_ever = flow.check_memory
+    for module in (flow, earliest):
+        monkeypatch.setattr(module, "check_memory", check)
+    monkeypatch.setattr(optimal, "make_flow_singly", lambda *arguments, **options: None)
+    monkeypatch.setattr(earliest, "_LOG", 16)
+    with pytest.raises(th.TooLargeError, match="the optimum for 300 robots needs at least"):
+        make_plan(scenario, "optimal")
+    assert len(needs) == 2
+    assert needs[1] > needs[0]

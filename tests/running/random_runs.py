@@ -1,0 +1,47 @@
+"""Random trials: scenario, events, sensor and delays, all drawn from one number."""
+
+import numpy as np
+
+from tests.strategies import random_scenario
+from trihex.running import KINDS, Event, Sensor, Trial
+
+LAST_STEP = 40
+RADII = (None, 0, 1, 2.5, 3, 5)
+DELAYS = (0.0, 0.05, 0.1, 0.2, 0.3)
+
+
+def random_events(rng, scenario, count):
+    """Return events of all kinds; many of them cannot happen."""
+    area, events = scenario.area, []
+
+    def place():
+        if rng.random() < 0.4:
+            cell = int(rng.choice(scenario.destinations))
+            return cell % area.width, cell // area.width
+        return int(rng.integers(area.width)), int(rng.integers(area.height))
+
+    for _ in range(count):
+        kind = list(KINDS)[rng.integers(len(KINDS))]
+        most = {"robot": max(1, scenario.robot_count), "steps": 8}
+        details = {n: place() if n in ("cell", "to") else int(rng.integers(most[n])) for n in KINDS[kind]}
+        if "steps" in details:
+            details["steps"] += 1
+        events.append(Event(int(rng.integers(1, LAST_STEP)), kind, **details))
+    return events
+
+
+def random_trial(seed, **limits):
+    """Return a trial; what robots see, what happens and who is late as the number says."""
+    rng = np.random.default_rng([seed, 9])
+    scenario = random_scenario(seed, **{"sides": (3, 16), **limits})
+    radius = RADII[rng.integers(len(RADII))]
+    return Trial(
+        scenario,
+        ("fcost", "greedy")[rng.integers(2)],
+        aside=("always", "worth", "never")[rng.integers(3)],
+        replan=seed % 5 == 0,
+        sensor=None if radius is None else Sensor(scenario.area.tessellation, radius, bool(rng.integers(2))),
+        events=random_events(rng, scenario, int(rng.integers(25))),
+        delay=DELAYS[rng.integers(len(DELAYS))],
+        seed=seed,
+    )
