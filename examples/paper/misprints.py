@@ -98,7 +98,7 @@ def automaton_of(
 def fixed_point(scenario: th.Scenario, rules: Sequence[Terms], **reading: bool) -> np.ndarray:
     """Return the last generation of a rule on a scenario."""
     automaton = automaton_of(scenario.area.tessellation.name, rules, **reading)
-    return automaton.run(th.automaton.make_distance_configuration(scenario)).configuration
+    return automaton.run(th.make_distance_configuration(scenario)).configuration
 
 
 def wrong_cells(

@@ -11,7 +11,8 @@ import trihex as th
 from tests.oracles.optimum import least_total_time
 from tests.oracles.rules import Rules
 from tests.strategies import scenarios
-from trihex.bounds.bounds import bounds, entries_per_step
+from trihex.areas import entries_per_step
+from trihex.bounds import bounds
 from trihex.bounds.cuts import find_crowded_nodes, find_cuts, make_crowd
 from trihex.bounds.gates import least_arrivals, make_gate_network
 

@@ -6,8 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from tests.formats.strategies import FRAMES, NAMES, walks
 from trihex import Area, FormatError, Plan, Scenario, Tessellation, read_plan, read_scenario, write_plan, write_scenario

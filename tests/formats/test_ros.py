@@ -4,8 +4,7 @@ from math import pi
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from PIL import Image
 
 from trihex import AreaError, FormatError, TooLargeError, read_area

@@ -10,8 +10,7 @@ import numpy as np
 import pedpy
 import pytest
 import shapely
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from tests.formats.strategies import walks
 from trihex import Area, AreaError, FormatError, Scenario

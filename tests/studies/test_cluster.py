@@ -64,7 +64,7 @@ def test_a_scheduler_without_workers_is_of_no_use():
 def test_a_wrong_address_is_told_in_one_line(address, line, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "s.toml").write_text("robots = [1]\nareas = {generator = 'random', size = [4, 4]}\n")
-    monkeypatch.setattr("trihex.studies.cluster.connected", lambda address: connected(address, 0.3))
+    monkeypatch.setattr("trihex.studies.connected", lambda address: connected(address, 0.3))
     result = CliRunner().invoke(main, ["study", "s.toml", "--scheduler", address])
     assert result.exit_code == 2
     assert result.stderr.startswith(f"trihex: error: {line}") and result.stderr.count("\n") == 1

@@ -14,9 +14,7 @@ from click.testing import CliRunner
 
 import trihex as th
 from trihex.cli import main
-from trihex.studies import dispatch as run
-from trihex.studies import journal as journal_module
-from trihex.studies import journal_of, worker
+from trihex.studies import dispatch as run, journal as journal_module, journal_of, worker
 from trihex.studies.journal import Journal
 
 STUDY = """

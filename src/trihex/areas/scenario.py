@@ -97,6 +97,28 @@ class Scenario(Record):
         """n, the number of robots."""
         return int(self.robots.size)
 
+    @property
+    def forbids_crossing(self) -> bool:
+        """Whether there are lattice vertices that two robots may not pass in one step."""
+        tessellation = self.area.tessellation
+        return self.crossing == "forbid" and tessellation.edge_count < tessellation.direction_count
+
+    @property
+    def first_vertex_move(self) -> int:
+        """The first direction that passes a lattice vertex which others may not; their number if there is none."""
+        tessellation = self.area.tessellation
+        return tessellation.edge_count if self.forbids_crossing else tessellation.direction_count
+
+    @property
+    def entry_limit(self) -> int:
+        """How many robots may enter one destination in a step, 0 for any number: the capacity as kernels know it."""
+        return self.destination_capacity or 0
+
+    @property
+    def corner_rule(self) -> int:
+        """Place of `corners` in `CORNERS`, for kernels."""
+        return CORNERS.index(self.corners)
+
     @cached_property
     def moves(self) -> NDArray[np.uint16]:
         """Open moves of each site: bit k is set where direction k may be taken; shape (layout.size,)."""
@@ -115,7 +137,7 @@ class Scenario(Record):
                 layout.vertex_of_direction,
                 layout.ring_of_vertex,
                 tessellation.edge_count,
-                CORNERS.index(self.corners),
+                self.corner_rule,
                 moves,
             )
         return read_only(moves)

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Scenario
+from trihex.areas import Scenario, entries_per_step
 from trihex.bounds.cuts import Crowd, Cut, find_crowded_nodes, find_cuts, make_crowd
 from trihex.bounds.gates import least_arrivals, make_gate_network
 from trihex.fields import NScheme
@@ -156,30 +156,6 @@ def _choose_gates(crowd: Crowd, cuts: list[Cut], most: int) -> NDArray[np.int32]
             gates = more
     more_gates = min(most - gates.size, most // 2)
     return np.union1d(gates, find_crowded_nodes(crowd, more_gates)) if more_gates > 3 else gates
-
-
-def entries_per_step(scenario: Scenario) -> int:
-    """Return how many robots can at most enter all destinations together in one step."""
-    layout, tessellation = scenario.area.layout, scenario.area.tessellation
-    sites = layout.cell_to_site(scenario.destinations)
-    is_destination = np.zeros(layout.size, dtype=bool)
-    is_destination[sites] = True
-    k = np.arange(tessellation.direction_count)
-    parity = (sites & 1)[:, None]
-    neighbour = sites[:, None] + layout.offset_of_direction[parity, k]
-    is_way_in = (scenario.moves[sites][:, None] >> k & 1).astype(bool) & ~is_destination[neighbour]
-    # Each way in has a name: the neighbour it comes from, or the vertex it shares with others (numbered apart).
-    name = neighbour.astype(np.int64)
-    if scenario.crossing == "forbid":
-        vertex = sites[:, None] + layout.vertex_of_direction[parity, k]
-        name = np.where(k >= tessellation.edge_count, vertex + layout.size, name)
-    name = np.where(is_way_in, name, -1)
-    name.sort(axis=1)
-    is_new = (name >= 0) & np.diff(name, axis=1, prepend=-1).astype(bool)
-    ways_of_destination = is_new.sum(axis=1)
-    if scenario.destination_capacity is not None:
-        ways_of_destination = np.minimum(ways_of_destination, scenario.destination_capacity)
-    return int(min(ways_of_destination.sum(), np.unique(name[name >= 0]).size))
 
 
 def _at_robots(n_scheme: NScheme, field: NDArray[np.int32]) -> NDArray[np.int64]:

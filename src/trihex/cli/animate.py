@@ -39,8 +39,7 @@ def command(
 
     PLAN is .npz, which holds area and rules itself, or .csv, which needs AREA and the options that it was made with.
     """
-    from trihex.pictures import MOVIE_SUFFIXES as SUFFIXES
-    from trihex.pictures import write_animation
+    from trihex.pictures import MOVIE_SUFFIXES as SUFFIXES, write_animation
     from trihex.viewer import PAGE_SUFFIXES, write_page
 
     drawn = {

@@ -64,8 +64,7 @@ def command(
     from trihex.fields import make_d_scheme, make_n_scheme
     from trihex.formats import write_field
     from trihex.kernels.codes import NOT_REACHED
-    from trihex.pictures import PICTURE_SUFFIXES as SUFFIXES
-    from trihex.pictures import picture_of_d_scheme, picture_of_n_scheme
+    from trihex.pictures import PICTURE_SUFFIXES as SUFFIXES, picture_of_d_scheme, picture_of_n_scheme
 
     check_outputs(
         (out, (".npy",), "an N-scheme"),

@@ -49,8 +49,7 @@ def command(
 
     from trihex.areas import GENERATORS
     from trihex.formats import AREA_SUFFIXES, write_area
-    from trihex.pictures import PICTURE_SUFFIXES as SUFFIXES
-    from trihex.pictures import picture_of_area
+    from trihex.pictures import PICTURE_SUFFIXES as SUFFIXES, picture_of_area
 
     check_outputs((out, AREA_SUFFIXES, "an area"), (picture, SUFFIXES, "a picture"))
     given = {name: value for name, value in options.items() if value is not None}

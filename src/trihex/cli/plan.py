@@ -48,8 +48,7 @@ def command(
 
     Exit status 1: some robots cannot arrive. The others are planned and all outputs are written.
     """
-    from trihex.formats import write_plan, write_waypoints
-    from trihex.formats import write_scenario as write_scenario_file
+    from trihex.formats import write_plan, write_scenario as write_scenario_file, write_waypoints
 
     given = {"plan": out, "summary": summary, "picture": picture, "waypoints": waypoints, "speed": speed}
     outputs: dict[str, Any] = {name: value for name, value in given.items() if value is not None}

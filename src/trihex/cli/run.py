@@ -97,8 +97,7 @@ def command(
 
 
 def _check(out: Path | None, summary: Path | None, picture: Path | None, animation: Path | None) -> None:
-    from trihex.pictures import MOVIE_SUFFIXES
-    from trihex.pictures import PICTURE_SUFFIXES as SUFFIXES
+    from trihex.pictures import MOVIE_SUFFIXES, PICTURE_SUFFIXES as SUFFIXES
 
     check_outputs(
         (out, (".npz",), "a run"),

@@ -18,8 +18,7 @@ def make_tiles(
 ) -> None:
     """Compute the N-scheme of the array `area` into the file `out`, and say so."""
     from trihex.areas import Tessellation
-    from trihex.fields import TILE_SIDE as SIDE
-    from trihex.fields import make_tiled_field
+    from trihex.fields import TILE_SIDE as SIDE, make_tiled_field
 
     if out is None:
         raise wrong_use(f"{area} is settled tile by tile into a file: add --out FILE")

@@ -126,8 +126,7 @@ def _spread(
     entries, expanded, horizon
         What waits now, how many entries were expanded, and what is settled if `look` put an end to it.
     """
-    from trihex.fields.kernels import buckets as fields
-    from trihex.fields.kernels import queue as kernels
+    from trihex.fields.kernels import buckets as fields, queue as kernels
 
     kernel = kernels.make_spread(steps.slots, steps.is_masked)
     queue = np.empty(max(kernels.QUEUE_SIZE, 2 * entries.size), dtype=np.uint64)

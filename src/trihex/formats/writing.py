@@ -8,8 +8,7 @@ from typing import Any
 from trihex.areas import Area, Scenario
 from trihex.areas.coverage import Progress
 from trihex.files import suffix_of
-from trihex.formats.areas.image import SUFFIXES as IMAGE_SUFFIXES
-from trihex.formats.areas.image import refuse_frame, write_image
+from trihex.formats.areas.image import SUFFIXES as IMAGE_SUFFIXES, refuse_frame, write_image
 from trihex.formats.areas.letters import write_letters
 from trihex.formats.areas.movingai import write_movingai
 from trihex.formats.plans.csv import write_plan_csv

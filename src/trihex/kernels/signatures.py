@@ -1,8 +1,8 @@
-"""The array types that kernels declare: read-only where they read, plain where they fill."""
+"""Signatures: the types that kernels declare, read-only where they read, plain where they fill; tuples with names."""
 
 from typing import Any
 
-from numba import types
+from numba import njit, types
 from numba.core.options import DefaultOptions
 
 from trihex.kernels import loading
@@ -25,6 +25,7 @@ IN_U8 = _array(types.uint8, True)
 IN_U16 = _array(types.uint16, True)
 IN_I32 = _array(types.int32, True)
 IN_I64 = _array(types.int64, True)
+OUT_I8 = _array(types.int8, False)
 OUT_BOOL = _array(types.boolean, False)
 OUT_U8 = _array(types.uint8, False)
 OUT_U16 = _array(types.uint16, False)
@@ -37,3 +38,43 @@ MASK = types.Array(types.boolean, 2, "C", readonly=True)
 # over, as if they might be its own; where a search calls for each arc, that takes 3 to 7 times as long as all the rest.
 # The option is not documented; numba without it is only slower.
 UNCOUNTED: Any = {"_nrt": False} if hasattr(DefaultOptions, "_nrt") else {}
+
+# A function that kernels call: it becomes part of its caller, which is as fast as if its lines stood there. It takes
+# scratch arrays as arguments and makes none. Without any of these options, a helper that is called for each robot costs
+# 2 to 25 times as much; numba's own `inline="always"` takes 30 s to compile where this takes 5.
+_BARE: Any = {"nogil": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True, **UNCOUNTED}
+_INLINED: Any = {"forceinline": True, **_BARE} if hasattr(DefaultOptions, "forceinline") else _BARE
+HELPER: Any = njit(**_INLINED)
+# The same for a function that is long and called seldom, so that its lines do not stand in the way of others.
+APART: Any = njit(**_BARE)
+
+
+def kernel(signature: Any, **options: Any) -> Any:
+    """Declare a kernel that Python calls: cached on disk, without the interpreter's lock, no arrays made inside."""
+    return njit(signature, cache=True, nogil=True, **UNCOUNTED, **options)
+
+
+def declared(noun: type) -> Any:
+    """Return numba's type of a NamedTuple whose annotations are numba's types.
+
+    Names of such classes must be unique in all of trihex: numba takes two of the same name and types for one.
+    """
+    return types.BaseTuple.from_types(list(noun.__annotations__.values()), noun)
+
+
+def given(noun: Any, *fields: Any, **named: Any) -> Any:
+    """Return a NamedTuple just as it is declared, for a kernel: views that cannot be written to where it only reads.
+
+    On its own an array that can be written to is taken where a read-only one is declared, but not in a tuple.
+    """
+    values = noun(*fields, **named)
+    return noun(*(_fitted(value, wanted) for value, wanted in zip(values, noun.__annotations__.values(), strict=True)))
+
+
+def _fitted(value, wanted):
+    if isinstance(wanted, types.Array):
+        if not wanted.mutable and value.flags.writeable:
+            value = value.view()
+            value.flags.writeable = False
+        return value
+    return bool(value) if wanted is types.boolean else int(value) if isinstance(wanted, types.Integer) else value

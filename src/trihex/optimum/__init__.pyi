@@ -3,20 +3,12 @@ from .earliest import (
 )
 from .flow import (
     Flow as Flow,
-)
-from .flow import (
     make_flow_by_levels as make_flow_by_levels,
-)
-from .flow import (
     make_flow_singly as make_flow_singly,
 )
 from .network import (
     OBJECTIVES as OBJECTIVES,
-)
-from .network import (
     Network as Network,
-)
-from .network import (
     make_network as make_network,
 )
 from .paths import (

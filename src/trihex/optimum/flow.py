@@ -97,9 +97,7 @@ def _serve(
     memory_limit: int | None,
 ) -> Flow | None:
     """Find the paths one robot after another, or None if they meet too often for that; else in order of cost."""
-    from trihex.optimum.kernels import levels as crowd
-    from trihex.optimum.kernels import residual as kernels
-    from trihex.optimum.kernels import single
+    from trihex.optimum.kernels import levels as crowd, residual as kernels, single
 
     size = network.node_count
     layers = _least_layers(network, cells) + 8

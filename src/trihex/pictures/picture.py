@@ -17,8 +17,7 @@ from trihex.areas import Area, Ground, Scenario
 from trihex.fields import DScheme, NScheme
 from trihex.files import new_file, suffix_of
 from trihex.kernels.codes import NOT_REACHED
-from trihex.pictures import marks as make
-from trihex.pictures import palette
+from trihex.pictures import marks as make, palette
 from trihex.pictures.palette import BARRIER, DESTINATION, FREE, INK, MOVING, SERIES, STRANDED, UNREACHED
 from trihex.pictures.png import paint, write_png
 from trihex.pictures.scene import Key, Lines, Mark, Ramp, Scene, colour_rows, scale_for

@@ -15,8 +15,7 @@ from trihex.files import new_file, suffix_of
 from trihex.kernels.codes import LATE, WAIT
 from trihex.pictures import marks as make
 from trihex.pictures.gif import GifWriter
-from trihex.pictures.movie import MOVIE_SUFFIXES as SUFFIXES
-from trihex.pictures.movie import Pace, Progress, arrange_frame, check_range
+from trihex.pictures.movie import MOVIE_SUFFIXES as SUFFIXES, Pace, Progress, arrange_frame, check_range
 from trihex.pictures.mp4 import Mp4Writer, import_av
 from trihex.pictures.palette import DESTINATION, MOVING, PAGE, SERIES, STRANDED, WAITING, Colour
 from trihex.pictures.png import paint, paint_disc_marks, paint_discs, write_words

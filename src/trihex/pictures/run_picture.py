@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.pictures import marks as make
-from trihex.pictures import palette
+from trihex.pictures import marks as make, palette
 from trihex.pictures.palette import BARRIER, DESTINATION, FREE, MOVING, STRANDED
 from trihex.pictures.picture import Picture
 from trihex.pictures.scene import Key, Mark, Ramp, Scene, scale_for

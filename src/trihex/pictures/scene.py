@@ -1,7 +1,7 @@
 """Scene: what a picture shows, cells, marks and legend, before anything is painted.
 
-Places are in edge steps from the north-west corner of the area, as `trihex.areas` gives them; sizes of letters and widths
-of lines are in pixels. The painters (`png`, `svg`, `plotting`) only follow it.
+Places are in edge steps from the north-west corner of the area, as `trihex.areas` gives them; sizes of letters and
+widths of lines are in pixels. The painters (`png`, `svg`, `plotting`) only follow it.
 """
 
 from __future__ import annotations

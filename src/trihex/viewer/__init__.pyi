@@ -3,8 +3,6 @@ from .launch import (
 )
 from .page import (
     PAGE_SUFFIXES as PAGE_SUFFIXES,
-)
-from .page import (
     write_page as write_page,
 )
 from .widget import (
