@@ -180,7 +180,7 @@ def _drawn(path: Path) -> tuple[list[str], list[str]]:
 def test_every_figure_is_shown_and_every_figure_shown_exists():
     shown = set()
     for path in DOCS:
-        for target in re.findall(r"\{image\} (\S+)", path.read_text(encoding="utf-8")):
+        for target in re.findall(r"!\[[^\]]*\]\((\S+)\)", path.read_text(encoding="utf-8")):
             figure = (path.parent / target).resolve()
             assert figure.is_file(), f"{name_of(path)}: {target}"
             shown.add(figure.name)
@@ -229,3 +229,9 @@ def test_every_page_is_in_the_navigation_and_every_public_name_in_the_reference(
     packages = [package for found in directives for names in found for package in names.split()]
     homes = set(re.findall(r"^from \.(\w+) import", (ROOT / "src/trihex/__init__.pyi").read_text(), re.MULTILINE))
     assert sorted(packages) == sorted(homes), "name the package on a page of docs/api"
+
+
+def test_the_overview_of_the_api_is_that_of_the_docstrings():
+    reference = runpy.run_path(str(ROOT / "docs" / "reference.py"))
+    assert reference["PAGE"].read_text(encoding="utf-8") == reference["page"](), "run `python docs/reference.py`"
+    assert set(reference["names_of_package"]()) == set(reference["TITLES"])

@@ -47,8 +47,3 @@ def test_making_records_imports_no_numba():
         "th.Scenario(area, [(0, 0)], th.random_robots(area, 2)); print('numba' in sys.modules)"
     )
     assert subprocess.check_output([sys.executable, "-c", code], text=True) == "False\n"
-
-
-def test_no_file_is_too_long_to_hold_one_idea():
-    lengths = {p.name: len(p.read_text().splitlines()) for p in (ROOT / "src").rglob("*.py")}
-    assert {name: n for name, n in lengths.items() if n > 450} == {}

@@ -126,9 +126,7 @@ of robots a step as far as they find a way in. Robots start anywhere. {made_with
 Plans are made with the weight w_t from 0 to 100, but all are measured with one yardstick: a wait costs 10, as much as a
 step. So the figures tell what the weight does to the plan, not what it does to the unit.
 
-```{{image}} ../figures/study_planner.png
-:alt: Total time over that of greedy descent against w_t, for four rules.
-```
+![Total time over that of greedy descent against w_t, for four rules.](../figures/study_planner.png)
 
 ## Where it helps, where it hurts
 

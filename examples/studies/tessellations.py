@@ -170,9 +170,7 @@ The ground: four halls of 24 by 18 metres, open, with 30 blocks, with 12 rooms, 
 three exits to the east, each for one robot a step. Cells have 0.25 square metres, robots a radius of 7 cm, and walls are
 kept clear of. {made_with(rows, "tessellations")}
 
-```{{image}} ../figures/study_tessellations.png
-:alt: Length of paths over straight lines, and seconds until the last robot is out, for five kinds of cells on four grounds.
-```
+![Length of paths over straight lines, and seconds until the last robot is out, for five kinds of cells on four grounds.](../figures/study_tessellations.png)
 
 ## Lengths
 

@@ -104,9 +104,7 @@ start anywhere, or on the 20 cells farthest from it; planner fcost. {made_with(r
 
 All prices are in % of the total time of the same robots, in the same way, with a map and without delays.
 
-```{{image}} ../figures/study_unknown.png
-:alt: The price of not knowing by how far robots see, and the price of being late by how often they are.
-```
+![The price of not knowing by how far robots see, and the price of being late by how often they are.](../figures/study_unknown.png)
 
 ## The price of not knowing
 
