@@ -10,7 +10,7 @@ PAGE = Path(__file__).parent / "api" / "index.md"
 HEAD = """# API
 
 The public names, as `import trihex as th` gives them, a page for each package, in the order in which they are used.
-In the documentation that `make docs` builds, each page has the full docstrings; in Python `help(th.make_plan)` shows them.
+`make docs` builds pages with the full docstrings; in Python `help(th.make_plan)` shows them.
 
 """
 TITLES = {
@@ -55,10 +55,9 @@ def page():
         names = sorted(found[package], key=lambda name: (not name[0].isupper(), name))
         parts += [f"| `{name}` | {first_sentence(getattr(trihex, name))} |\n" for name in names]
         parts.append("\n")
+    parts.append("## [Command line](command-line.md)\n`trihex --help` lists all commands.\n\n")
     pages = "\n".join([*TITLES, "command-line"])
-    parts.append(
-        f"## [Command line](command-line.md)\n`trihex --help` lists all commands.\n\n```{{toctree}}\n:hidden:\n:maxdepth: 1\n\n{pages}\n```\n"
-    )
+    parts.append(f"```{{toctree}}\n:hidden:\n:maxdepth: 1\n\n{pages}\n```\n")
     return "".join(parts)
 
 

@@ -6,6 +6,7 @@ from numba import njit, types
 from numba.core.options import DefaultOptions
 
 from trihex.kernels import loading
+from trihex.kernels.caching import keep
 
 if loading.is_alone:
     loading.load_numba_alone()
@@ -50,8 +51,17 @@ APART: Any = njit(**_BARE)
 
 
 def kernel(signature: Any, **options: Any) -> Any:
-    """Declare a kernel that Python calls: cached on disk, without the interpreter's lock, no arrays made inside."""
-    return njit(signature, cache=True, nogil=True, **UNCOUNTED, **options)
+    """Declare a kernel that Python calls: kept on disk, without the interpreter's lock, no arrays made inside."""
+
+    def declare(function: Any) -> Any:
+        made = njit(nogil=True, **UNCOUNTED, **options)(function)
+        if made is not function:  # it is under NUMBA_DISABLE_JIT
+            keep(made)
+            made.compile(signature)
+            made.disable_compile()
+        return made
+
+    return declare
 
 
 def declared(noun: type) -> Any:
