@@ -9,6 +9,11 @@ _PACKAGE = Path(__file__).parents[1]
 _IMPORT = re.compile(r"^from trihex\.([\w.]*kernels[\w.]*) import ([^#(]*|\([^)]*\))", re.MULTILINE)
 
 
+def file_of(module: str) -> Path:
+    """Return the file of a module of trihex, which need not have been imported."""
+    return _PACKAGE.joinpath(*module.split(".")[1:]).with_suffix(".py")
+
+
 @cache
 def stamp_of(path: str) -> bytes:
     """Return a hash of all that a file of kernels is compiled from.
