@@ -343,3 +343,9 @@ def test_every_command_is_listed(folder):
     helpers = {"group", "options", "outputs", "progress", "texts", "tiles", "types"}
     modules = {path.stem for path in Path(trihex.cli.__file__).parent.glob("[a-z]*.py")}
     assert modules == helpers | COMMANDS.keys()
+
+
+def test_no_command_needs_numpy_before_it_works():
+    code = "import sys, importlib; [importlib.import_module(f'trihex.cli.{name}') for name in sys.argv[1:]]"
+    command = [sys.executable, "-c", f"{code}; print('numpy' in sys.modules)", *COMMANDS]
+    assert subprocess.check_output(command, text=True) == "False\n"

@@ -4,7 +4,7 @@ import pytest
 
 import trihex as th
 from trihex.formats import Draft
-from trihex.studies.case import run_trial
+from trihex.studies.case import run_case
 from trihex.studies.grid import Grid
 from trihex.studies.placing import place_destinations, place_robots
 from trihex.studies.study import make_study
@@ -28,24 +28,24 @@ def written(folder, text, name="study.toml"):
 
 
 def test_a_grid_has_all_combinations_the_planners_changing_fastest(tmp_path):
-    trials = th.read_study(written(tmp_path, SMALL)).trials
-    assert len(trials) == 2 * 3 * 5 * 2 * 3
-    assert [trial["planner"]["options"] for trial in trials[:3]] == [{}, {"rule": "queue"}, {"rule": "aside"}]
-    assert [trial["seed"] for trial in trials[:7]] == [0, 0, 0, 1, 1, 1, 0]
-    robots = [(trial["robots"]["count"], trial["robots"].get("placement")) for trial in trials[:30:6]]
+    cases = th.read_study(written(tmp_path, SMALL)).trials
+    assert len(cases) == 2 * 3 * 5 * 2 * 3
+    assert [case["planner"]["options"] for case in cases[:3]] == [{}, {"rule": "queue"}, {"rule": "aside"}]
+    assert [case["seed"] for case in cases[:7]] == [0, 0, 0, 1, 1, 1, 0]
+    robots = [(case["robots"]["count"], case["robots"].get("placement")) for case in cases[:30:6]]
     assert robots == [(3, None), (4, "west"), (4, "east"), (5, "west"), (5, "east")]
-    assert trials[-1]["tessellation"] == {"name": "square", "neighbourhood": "edge"}
-    assert trials[-1]["area"]["density"] == 0.1
-    assert len({str(trial) for trial in trials}) == len(trials)
+    assert cases[-1]["tessellation"] == {"name": "square", "neighbourhood": "edge"}
+    assert cases[-1]["area"]["density"] == 0.1
+    assert len({str(case) for case in cases}) == len(cases)
 
 
 def test_a_sample_keeps_order_and_depends_on_its_seed_alone(tmp_path):
-    every = [str(trial) for trial in th.read_study(written(tmp_path, SMALL)).trials]
-    some = [str(trial) for trial in th.read_study(written(tmp_path, "sample = 20\n" + SMALL)).trials]
-    again = [str(trial) for trial in th.read_study(written(tmp_path, "sample = 20\n" + SMALL)).trials]
-    other = [str(trial) for trial in th.read_study(written(tmp_path, "sample = 20\nsample_seed = 1\n" + SMALL)).trials]
+    every = [str(case) for case in th.read_study(written(tmp_path, SMALL)).trials]
+    some = [str(case) for case in th.read_study(written(tmp_path, "sample = 20\n" + SMALL)).trials]
+    again = [str(case) for case in th.read_study(written(tmp_path, "sample = 20\n" + SMALL)).trials]
+    other = [str(case) for case in th.read_study(written(tmp_path, "sample = 20\nsample_seed = 1\n" + SMALL)).trials]
     assert len(set(some)) == 20 and some == again != other
-    assert [every.index(trial) for trial in some] == sorted(every.index(trial) for trial in some)
+    assert [every.index(case) for case in some] == sorted(every.index(case) for case in some)
 
 
 def test_a_grid_too_large_to_list_can_be_sampled():
@@ -195,14 +195,14 @@ def test_a_row_tells_lengths_and_waits():
     # Two robots in a corridor, the destination at its end takes one a step: the second walks behind and never waits.
     area = th.Area("hexagonal", [[0], [0], [0], [0]])
     scenario = th.Scenario(area, [(0, 3)], [(0, 0), (0, 1)])
-    row = run_trial({"scenario": scenario, "planner": {"name": "greedy", "options": {}}, "bound": True})
+    row = run_case({"scenario": scenario, "planner": {"name": "greedy", "options": {}}, "bound": True})
     assert (row["path_length"], row["straight_length"], row["waits"], row["most_waiting"]) == (5.0, 5.0, 0, 0)
     # Around a wall on squares: 2 diagonals in place of 2 straight steps.
     area = th.Area("square", [[0, 0, 0], [0, 1, 0]])
     scenario = th.Scenario(area, [(2, 1)], [(0, 1)])
-    row = run_trial({"scenario": scenario, "planner": {"name": "greedy", "options": {}}, "bound": True})
+    row = run_case({"scenario": scenario, "planner": {"name": "greedy", "options": {}}, "bound": True})
     assert (row["path_length"], row["straight_length"]) == (pytest.approx(2 * 2**0.5, abs=1e-3), 2.0)
     # Two beside a destination for one robot at a time: one waits once.
     scenario = th.Scenario(th.Area("square", [[0, 0, 0]]), [(1, 0)], [(0, 0), (2, 0)], destination_capacity=1)
-    row = run_trial({"scenario": scenario, "planner": {"name": "greedy", "options": {}}, "bound": False})
+    row = run_case({"scenario": scenario, "planner": {"name": "greedy", "options": {}}, "bound": False})
     assert (row["waits"], row["most_waiting"], row["lower_bound_name"]) == (1, 1, "distance")

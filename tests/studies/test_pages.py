@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 import trihex as th
-from trihex.studies.case import COLUMNS
+from trihex.studies.row import COLUMNS
 
 ROOT = Path(__file__).parents[2]
 NAMES = ("tessellations", "planner", "unknown")
@@ -52,8 +52,8 @@ def test_results_are_those_of_the_study_beside_them(name):
     rows = rows_of(name)
     assert [int(row["run"]) for row in rows] == list(range(len(study)))
     assert list(rows[0]) == list(COLUMNS)
-    for row, trial in zip(rows, study.trials, strict=True):
-        planned = (trial["planner"]["name"], trial["tessellation"]["name"], str(trial["seed"]))
+    for row, case in zip(rows, study.trials, strict=True):
+        planned = (case["planner"]["name"], case["tessellation"]["name"], str(case["seed"]))
         assert (row["planner"], row["tessellation"], row["seed"]) == planned
         assert row["conflicts"] == "0" and row["error"] == "" and row["robots"] == row["arrived"]
 

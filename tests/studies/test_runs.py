@@ -9,9 +9,9 @@ import pytest
 
 import trihex as th
 from trihex.studies import Study, worker
-from trihex.studies.case import COLUMNS, hash_of_scenario, versions
+from trihex.studies.row import COLUMNS, hash_of_scenario, versions
 from trihex.studies.study import make_study
-from trihex.studies.worker import Limits, Worker, run_trials
+from trihex.studies.worker import Limits, Worker, run_cases
 
 AREA = {"generator": "random", "size": [12, 9], "density": 0.1}
 RUNS = [
@@ -142,9 +142,9 @@ def test_short_runs_are_given_out_together_and_those_of_one_scenario_always_are(
     calls = []
 
     class Counting(ThreadPoolExecutor):
-        def submit(self, function, trials, *arguments):
-            calls.append([trial["seed"] for trial in trials])
-            return super().submit(function, trials, *arguments)
+        def submit(self, function, cases, *arguments):
+            calls.append([case["seed"] for case in cases])
+            return super().submit(function, cases, *arguments)
 
     runs = [{**RUNS[0], "seed": seed, "planner": planner} for seed in range(60) for planner in ("greedy", "fcost")]
     with Counting(1) as pool:
@@ -163,18 +163,18 @@ def test_a_fault_is_a_row(monkeypatch):
 
 
 def test_limits_make_rows_and_the_next_run_is_as_ever():
-    trials = make_study(HUGE).trials
+    cases = make_study(HUGE).trials
     small = make_study(RUNS[:1]).trials
-    rows = run_trials([*trials, *small], Limits(seconds=1.5))
+    rows = run_cases([*cases, *small], Limits(seconds=1.5))
     assert [row["error"] for row in rows] == ["took longer than 1.5 s", None]
     assert rows[0]["planner"] == "fcost" and rows[0]["robots"] == 1
-    rows = run_trials([*trials, *small], Limits(memory=20_000_000))
+    rows = run_cases([*cases, *small], Limits(memory=20_000_000))
     assert [row["error"] for row in rows] == ["out of memory: needed more than 20000000 bytes", None]
     worker.close_workers()
 
 
 class Death:
-    """A trial's part that ends the process that reads it."""
+    """A part of a case that ends the process that reads it."""
 
     def __reduce__(self):
         return os._exit, (3,)
@@ -183,17 +183,17 @@ class Death:
 def test_a_process_that_dies_is_a_row_and_one_that_is_killed_is_no_loss(monkeypatch):
     monkeypatch.setattr(worker, "LIVES", 1)
     mine = Worker(Limits())
-    (trial,) = make_study(RUNS[:1]).trials
-    row = mine.run({**trial, "death": Death()})
+    (case,) = make_study(RUNS[:1]).trials
+    row = mine.run({**case, "death": Death()})
     assert row["error"] == "its process ended 1 times (status 3)"
     assert (row["planner"], row["robots"]) == ("greedy", 5)
     monkeypatch.undo()
-    whole = mine.run(trial)
+    whole = mine.run(case)
     os.kill(mine._child.pid, signal.SIGKILL)
-    assert without_seconds([mine.run(trial)]) == without_seconds([whole])
+    assert without_seconds([mine.run(case)]) == without_seconds([whole])
     mine.close()
     with pytest.raises(th.StudyError, match="stopped"):
-        mine.run(trial)
+        mine.run(case)
 
 
 def test_workers_that_cannot_start_end_the_study(monkeypatch):
@@ -203,13 +203,13 @@ def test_workers_that_cannot_start_end_the_study(monkeypatch):
 
 
 def test_the_planners_of_one_scenario_share_what_is_made_for_it(monkeypatch):
-    from trihex.studies import case as trial
+    from trihex.studies import case
 
     made = []
-    monkeypatch.setattr(trial, "make_n_scheme", lambda scenario: made.append(1) or th.make_n_scheme(scenario))
+    monkeypatch.setattr(case, "make_n_scheme", lambda scenario: made.append(1) or th.make_n_scheme(scenario))
     study = make_study(RUNS[:4])
-    trial.warm_up("greedy"), trial.warm_up("fcost")
+    case.warm_up("greedy"), case.warm_up("fcost")
     made.clear()
-    trial._kept.__dict__.clear()
+    case._kept.__dict__.clear()
     assert len(th.run_study(Study(study.trials, study.key))) == 4
     assert len(made) == 2

@@ -113,7 +113,7 @@ def test_one_robot_is_followed_with_its_moves_waits_and_time(open_viewer):
     shown.press("Move")
     shown.click(3, 2)
     shown.page.locator(".scrub").fill(str(plan.steps))
-    shown.wait("app.clock > 0")
+    shown.wait("app.clock.at > 0")
     rows = shown.page.locator(".robot tbody tr").all()
     told = {row.locator("th").inner_text(): row.locator("td").all_inner_texts() for row in rows}
     assert told["moves d"] == [str(plan.distance_of_robot[5])] * 2
@@ -256,7 +256,7 @@ def test_light_and_dark_are_told_apart_and_remembered(open_viewer):
 def test_work_can_be_cancelled(open_viewer):
     shown = open_viewer(th.Scenario(th.Area("triangular", np.zeros((400, 400))), [(0, 0)]))
     shown.press("Grow the field")
-    shown.wait("app.growth && app.growth.ends.length > 2")
+    shown.wait("app.growth && app.growth.last > 1")
     shown.press("Cancel")
     shown.page.wait_for_function("() => document.querySelector('.status').textContent === 'Cancelled.'")
     assert not shown.page.get_by_role("progressbar").is_visible()

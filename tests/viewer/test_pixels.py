@@ -9,7 +9,7 @@ from trihex.pictures import palette
 
 HEIGHT, WIDTH, POINTS = 26, 33, 1000
 HIT = """(points) => {
-  const app = document.querySelector('#trihex').app, canvas = app.canvases[0], box = canvas.getBoundingClientRect();
+  const app = document.querySelector('#trihex').app, canvas = app.panes[0].canvas, box = canvas.getBoundingClientRect();
   return points.map(([x, y]) => {
     const place = { clientX: x + box.left, clientY: y + box.top, pointerId: 1 };
     canvas.dispatchEvent(new PointerEvent('pointermove', place));
@@ -45,7 +45,7 @@ def test_points_hit_the_cell_that_is_drawn_there(open_viewer, name):
             shown.page.mouse.move(*middle)
             for _ in range(round(abs(np.log(factor)) / 0.25)):
                 shown.page.mouse.wheel(0, -100 * np.sign(np.log(factor)))
-        shown.wait("!app.isWaiting && !app.panes[0].isRough")
+        shown.wait("!app.stage.isWaiting && !app.panes[0].isRough")
         scale, left, top = shown.view()
         pixels = np.floor(rng.random((POINTS, 2)) * [box["width"], box["height"]]) + 0.5
         points = (pixels + corner - (left, top)) / scale

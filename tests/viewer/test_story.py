@@ -5,6 +5,7 @@ import pytest
 
 import trihex as th
 from tests.viewer.pages import is_near
+from trihex.kernels.codes import NOT_REACHED
 from trihex.pictures import palette
 from trihex.planners import make_plan
 
@@ -109,7 +110,7 @@ def test_the_story(open_viewer, tmp_path, tessellation):
     for generation in (4, last, 1):
         page.get_by_label("Generation", exact=True).fill(str(generation))
         coloured = ~is_near(shown.colours(), palette.FREE)
-        reached = generations[generation] != th.automaton.NOT_REACHED
+        reached = generations[generation] != NOT_REACHED
         np.testing.assert_array_equal(coloured[is_empty], reached[is_empty])
 
     # plan
@@ -143,10 +144,10 @@ def test_the_story(open_viewer, tmp_path, tessellation):
     show_step(shown, 0)
     page.get_by_label("Steps per second").fill("4")  # slow enough that a busy machine looks before it ends
     shown.press("Play")
-    shown.wait("app.clock > 1")
+    shown.wait("app.clock.at > 1")
     assert shown.text(".play") == "Pause"
     page.get_by_label("Steps per second").fill("30")
-    shown.wait("!app.isPlaying")
+    shown.wait("!app.clock.isPlaying")
     assert shown.text(".status") == "The last robot has arrived."
     assert f"{report.arrived_count} arrived" in shown.text(".sets")
     assert f"{grouped(plan.total_time)} spent, {grouped(plan.total_time)} at least in the end" in shown.text(".sofar")

@@ -7,7 +7,8 @@ import click
 from trihex import __version__
 from trihex.cli.group import Commands
 
-# The module of each command under trihex.cli, in the order of the help, and what it says there.
+# The module of each command under trihex.cli, in the order of the help, and what it says there. To add a command, write
+# a module that defines `command`, and add a line here.
 COMMANDS = {
     "demo": "All planners on the three tessellations: a table, pictures and an animation.",
     "plan": "Plan collision-free paths for all robots.",

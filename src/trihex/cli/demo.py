@@ -2,39 +2,27 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
-from trihex.areas import TESSELLATIONS, Scenario, make_caves_area, random_robots
 from trihex.cli.group import DONE, NO
 from trihex.cli.options import PATH
 from trihex.cli.progress import bar
-from trihex.fields import make_n_scheme
-from trihex.formats import write_values
-from trihex.pictures import picture_of_n_scheme, picture_of_plan, write_animation
-from trihex.planners import PLANNERS
-from trihex.record import Record
-from trihex.studies import Comparison, make_comparison, on_tessellations
+
+if TYPE_CHECKING:
+    from trihex.areas import Scenario
+    from trihex.studies import Comparison
 
 Progress = Callable[[str, int, int], None]
 # Which plan is drawn, if the planner is there.
 SHOWN_PLANNER, SHOWN_TESSELLATION = "fcost", "hexagonal"
 
 
-@dataclass(frozen=True, eq=False)
-class Demo(Record):
-    """What the demo did.
-
-    Parameters
-    ----------
-    comparison : Comparison
-    files : tuple of Path
-        What it wrote.
-    """
+class Demo(NamedTuple):
+    """What the demo did: the comparison, and the files that it wrote."""
 
     comparison: Comparison
     files: tuple[Path, ...]
@@ -49,33 +37,40 @@ def make_demo_scenario() -> Scenario:
     >>> scenario.robot_count, scenario.destinations.size, scenario.area.free_count
     (240, 2, 1716)
     """
+    from dataclasses import replace
+
+    from trihex.areas import Scenario, make_caves_area, random_robots
+
     area = replace(make_caves_area("hexagonal", 40, 64, density=0.44, seed=15), name="cave")
     exits = area.xy_to_cell([0, 63], [20, 24])
     return Scenario(area, exits, random_robots(area, 240, seed=1, avoid=exits), seed=1)
 
 
-def run_demo(
-    folder: str | os.PathLike[str], planners: Iterable[str] = tuple(PLANNERS), *, progress: Progress | None = None
-) -> Demo:
+def run_demo(folder: Path, planners: Iterable[str] | None = None, *, progress: Progress | None = None) -> Demo:
     """Compare planners on the three tessellations, and write a table, pictures and a movie into `folder`.
 
     Parameters
     ----------
-    folder : path
+    folder : Path
         Made if it is not there.
-    planners : iterable of str
+    planners : iterable of str, optional
         Default: all.
     progress : callable, optional
         Called with (what is done, done, total).
     """
+    from trihex.areas import TESSELLATIONS
+    from trihex.fields import make_n_scheme
+    from trihex.formats import write_values
+    from trihex.pictures import picture_of_n_scheme, picture_of_plan, write_animation
+    from trihex.planners import PLANNERS
+    from trihex.studies import make_comparison, on_tessellations
 
     def tell(what: str) -> Callable[[int, int], None]:
         return lambda done, total: progress(what, done, total) if progress else None
 
-    folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     scenarios = on_tessellations(make_demo_scenario(), TESSELLATIONS)
-    comparison = make_comparison(scenarios, planners, progress=tell("planning"))
+    comparison = make_comparison(scenarios, planners or tuple(PLANNERS), progress=tell("planning"))
     files = [folder / "table.csv"]
     write_values(comparison.rows(), files[0])
     reports = {(entry.planner, entry.scenario.area.tessellation.name): entry.report for entry in comparison.entries}

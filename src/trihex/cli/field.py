@@ -3,15 +3,25 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import click
 
-from trihex.cli.options import PATH, area_options, complete, read_described, rule_options, wrong_use
+from trihex.cli.options import PATH, area_options, complete, gathered, read_described, rule_options, wrong_use
 from trihex.cli.outputs import check_outputs
 from trihex.cli.progress import bar
-from trihex.cli.tiles import make_tiles
+from trihex.cli.tiles import Tiling, make_tiles
 from trihex.cli.types import Whole
+
+
+class Outputs(NamedTuple):
+    """What is written and drawn."""
+
+    out: Path | None
+    directions: Path | None
+    picture: Path | None
+    directions_picture: Path | None
+    generations: Path | None
 
 
 @click.command("field")
@@ -31,18 +41,9 @@ from trihex.cli.types import Whole
 @click.option("--tile", type=Whole(2), help="Areas in .npy or .zarr: cells along a tile, even. [default: 2048]")
 @click.option("--jobs", type=Whole(1), help="Areas in .npy or .zarr: processes that settle tiles. [default: 1]")
 @click.option("--scheduler", metavar="ADDRESS", help="Areas in .npy or .zarr: the Dask scheduler to settle tiles on.")
-def command(
-    area: Path,
-    out: Path | None,
-    directions: Path | None,
-    picture: Path | None,
-    directions_picture: Path | None,
-    generations: Path | None,
-    tile: int | None,
-    jobs: int | None,
-    scheduler: str | None,
-    **options: Any,
-) -> None:
+@gathered("outputs", Outputs)
+@gathered("tiling", Tiling)
+def command(area: Path, outputs: Outputs, tiling: Tiling, **options: Any) -> None:
     """Compute the N-scheme and the D-scheme.
 
     The N-scheme holds for each cell the least cost to a destination, 2147483647 where none can be reached. The D-scheme
@@ -52,45 +53,63 @@ def command(
     tile, into --out alone (.npy or .zarr); interrupted at any moment, the same command goes on.
     """
     if area.suffix.lower() in (".npy", ".zarr"):
-        pictures = (directions, picture, directions_picture, generations)
-        if any(pictures):
+        if any(outputs._replace(out=None)):
             raise wrong_use(f"directions and pictures need an area in memory, not one in {area.suffix}")
-        make_tiles(area, out, tile, jobs, scheduler, options)
+        make_tiles(area, outputs.out, tiling, options)
         return
-    if given := [name for name, value in (("tile", tile), ("jobs", jobs), ("scheduler", scheduler)) if value]:
+    if given := [name for name, value in tiling._asdict().items() if value]:
         raise wrong_use(f"--{given[0]} is for areas in .npy or .zarr")
-    import numpy as np
+    from trihex.fields import make_n_scheme
 
-    from trihex.fields import make_d_scheme, make_n_scheme
-    from trihex.formats import write_field
-    from trihex.kernels.codes import NOT_REACHED
-    from trihex.pictures import PICTURE_SUFFIXES as SUFFIXES, picture_of_d_scheme, picture_of_n_scheme
-
-    check_outputs(
-        (out, (".npy",), "an N-scheme"),
-        (directions, (".npy",), "a D-scheme"),
-        (picture, SUFFIXES, "a picture"),
-        (directions_picture, SUFFIXES, "a picture"),
-    )
+    _check_outputs(outputs)
     scenario = complete(read_described(area, options), needs_robots=False)
     n_scheme = make_n_scheme(scenario)
-    if out:
-        write_field(n_scheme.distance, out)
-    if picture:
-        picture_of_n_scheme(n_scheme).save(picture)
-    if directions or directions_picture:
-        d_scheme = make_d_scheme(n_scheme)
-        if directions:
-            write_field(d_scheme.directions, directions)
-        if directions_picture:
-            picture_of_d_scheme(d_scheme).save(directions_picture)
+    _write(n_scheme, outputs)
+    _tell(n_scheme)
+    if outputs.generations:
+        click.echo(f"{_draw_generations(scenario, outputs.generations)} generations in {outputs.generations}")
+
+
+def _check_outputs(outputs: Outputs) -> None:
+    from trihex.pictures import PICTURE_SUFFIXES as SUFFIXES
+
+    check_outputs(
+        (outputs.out, (".npy",), "an N-scheme"),
+        (outputs.directions, (".npy",), "a D-scheme"),
+        (outputs.picture, SUFFIXES, "a picture"),
+        (outputs.directions_picture, SUFFIXES, "a picture"),
+    )
+
+
+def _write(n_scheme: Any, outputs: Outputs) -> None:
+    """Write and draw the N-scheme and the D-scheme."""
+    from trihex.fields import make_d_scheme
+    from trihex.formats import write_field
+    from trihex.pictures import picture_of_d_scheme, picture_of_n_scheme
+
+    if outputs.out:
+        write_field(n_scheme.distance, outputs.out)
+    if outputs.picture:
+        picture_of_n_scheme(n_scheme).save(outputs.picture)
+    if not (outputs.directions or outputs.directions_picture):
+        return
+    d_scheme = make_d_scheme(n_scheme)
+    if outputs.directions:
+        write_field(d_scheme.directions, outputs.directions)
+    if outputs.directions_picture:
+        picture_of_d_scheme(d_scheme).save(outputs.directions_picture)
+
+
+def _tell(n_scheme: Any) -> None:
+    """Print how much of the area reaches a destination, and how far it is."""
+    from trihex.kernels.codes import NOT_REACHED
+
+    area = n_scheme.scenario.area
     reached = n_scheme.distance[n_scheme.distance != NOT_REACHED]
     click.echo(
-        f"{scenario.area.name}: {reached.size} of {scenario.area.free_count} free cells reach a destination, "
-        f"the farthest at cost {np.max(reached)}"
+        f"{area.name}: {reached.size} of {area.free_count} free cells reach a destination, "
+        f"the farthest at cost {reached.max()}"
     )
-    if generations:
-        click.echo(f"{_draw_generations(scenario, generations)} generations in {generations}")
 
 
 def _draw_generations(scenario: Any, folder: Path) -> int:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import wraps
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -102,6 +103,21 @@ def robot_options(command: Command) -> Command:
     ):
         command = option(command)
     return command
+
+
+def gathered(name: str, noun: Callable[..., Any]) -> Callable[[Command], Command]:
+    """Hand the options that are fields of `noun`, a NamedTuple, on to the command as one record called `name`."""
+    fields: tuple[str, ...] = noun._fields  # type: ignore[attr-defined]
+
+    def gather(command: Command) -> Command:
+        @wraps(command)
+        def with_record(**given: Any) -> Any:
+            record = noun(**{field: given.pop(field) for field in fields})
+            return command(**{name: record}, **given)
+
+        return with_record  # type: ignore[return-value]
+
+    return gather
 
 
 def read_described(path: Path, options: dict[str, Any]) -> Draft:

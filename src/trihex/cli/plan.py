@@ -4,15 +4,34 @@ from __future__ import annotations
 
 from pathlib import Path
 from time import perf_counter
-from typing import Any
+from typing import Any, NamedTuple
 
 import click
 
 from trihex.cli.group import DONE, NO
-from trihex.cli.options import PATH, area_options, complete, read_described, robot_options, rule_options, wrong_use
+from trihex.cli.options import (
+    PATH,
+    area_options,
+    complete,
+    gathered,
+    read_described,
+    robot_options,
+    rule_options,
+    wrong_use,
+)
 from trihex.cli.outputs import check_outputs
 from trihex.cli.progress import bar
 from trihex.cli.types import Metres, Name
+
+
+class Outputs(NamedTuple):
+    """What is written, by the names that it has in a scenario file; None where nothing is said."""
+
+    plan: Path | None
+    summary: Path | None
+    picture: Path | None
+    waypoints: Path | None
+    speed: float | None
 
 
 @click.command("plan")
@@ -22,21 +41,18 @@ from trihex.cli.types import Metres, Name
 @robot_options
 @click.option("--planner", type=Name("trihex.planners", "PLANNERS"), help="Who plans. [default: fcost]")
 @click.option("--planner-option", metavar="NAME=VALUE", multiple=True, help="One of its options; may be repeated.")
-@click.option("--out", type=PATH, metavar="PLAN", help="The plan, as .csv or .npz.")
+@click.option("--out", "plan", type=PATH, metavar="PLAN", help="The plan, as .csv or .npz.")
 @click.option("--summary", type=PATH, metavar="FILE", help="The report as JSON; - writes it to the standard output.")
 @click.option("--picture", type=PATH, metavar="FILE", help="The plan drawn, as .png or .svg.")
 @click.option("--waypoints", type=PATH, metavar="FILE", help="Where each robot is when, in metres and seconds.")
 @click.option("--speed", type=Metres(), help="Of the robots, in metres a second. [default: 1.0]")
 @click.option("--write-scenario", type=PATH, metavar="FILE", help="All that was planned, as a scenario .toml.")
+@gathered("named", Outputs)
 def command(
     area: Path,
     planner: str | None,
     planner_option: tuple[str, ...],
-    out: Path | None,
-    summary: Path | None,
-    picture: Path | None,
-    waypoints: Path | None,
-    speed: float | None,
+    named: Outputs,
     write_scenario: Path | None,
     **options: Any,
 ) -> int:
@@ -48,10 +64,7 @@ def command(
 
     Exit status 1: some robots cannot arrive. The others are planned and all outputs are written.
     """
-    from trihex.formats import write_plan, write_scenario as write_scenario_file, write_waypoints
-
-    given = {"plan": out, "summary": summary, "picture": picture, "waypoints": waypoints, "speed": speed}
-    outputs: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
+    outputs: dict[str, Any] = {name: value for name, value in named._asdict().items() if value is not None}
     _check_outputs(outputs, write_scenario)
     begin = perf_counter()
     draft = read_described(area, options)
@@ -65,17 +78,10 @@ def command(
     if "waypoints" in outputs and scenario.area.frame is None:
         raise wrong_use("--waypoints are in metres: add --cell-size")
     report = _reported(scenario, planner, planner_options, seconds)
-
-    if "plan" in outputs:
-        with bar("writing", "parts") as progress:
-            write_plan(report.plan, outputs["plan"], progress=progress)
-    if "picture" in outputs:
-        from trihex.pictures import picture_of_plan
-
-        picture_of_plan(report.plan, ground=draft.ground, crop=draft.ground is not None).save(outputs["picture"])
-    if "waypoints" in outputs:
-        write_waypoints(report.plan, outputs["waypoints"], speed=outputs.get("speed", 1.0))
+    _write(report, draft, outputs)
     if write_scenario:
+        from trihex.formats import write_scenario as write_scenario_file
+
         kept = {name: value for name, value in outputs.items() if str(value) != "-"}
         write_scenario_file(scenario, write_scenario, planner=planner, planner_options=planner_options, outputs=kept)
     return _told(report, outputs.get("summary"))
@@ -96,6 +102,21 @@ def _check_outputs(outputs: dict[str, Any], write_scenario: Path | None) -> None
         (outputs.get("waypoints"), WAYPOINT_SUFFIXES, "waypoints"),
         (write_scenario, (".toml",), "a scenario"),
     )
+
+
+def _write(report: Any, draft: Any, outputs: dict[str, Any]) -> None:
+    """Write and draw the plan."""
+    from trihex.formats import write_plan, write_waypoints
+
+    if "plan" in outputs:
+        with bar("writing", "parts") as progress:
+            write_plan(report.plan, outputs["plan"], progress=progress)
+    if "picture" in outputs:
+        from trihex.pictures import picture_of_plan
+
+        picture_of_plan(report.plan, ground=draft.ground, crop=draft.ground is not None).save(outputs["picture"])
+    if "waypoints" in outputs:
+        write_waypoints(report.plan, outputs["waypoints"], speed=outputs.get("speed", 1.0))
 
 
 def _reported(scenario: Any, planner: str, planner_options: dict[str, Any], seconds: dict[str, float]) -> Any:

@@ -3,15 +3,53 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import click
 
 from trihex.cli.group import DONE, NO
-from trihex.cli.options import PATH, area_options, complete, read_described, robot_options, rule_options, wrong_use
+from trihex.cli.options import (
+    PATH,
+    area_options,
+    complete,
+    gathered,
+    read_described,
+    robot_options,
+    rule_options,
+    wrong_use,
+)
 from trihex.cli.outputs import check_outputs
 from trihex.cli.progress import bar
-from trihex.cli.types import Amount, Metres, Name, Share, Whole
+from trihex.cli.types import Amount, Name, Seconds, Share, Whole
+
+
+class Beginning(NamedTuple):
+    """What a run begins with, one of the three."""
+
+    area: Path | None
+    plan: Path | None
+    resume: Path | None
+
+
+class Way(NamedTuple):
+    """Who decides what robots do, what they see, and what comes in their way; None where nothing is said."""
+
+    planner: str | None
+    replan: bool
+    budget: float | None
+    sense: float | None
+    line_of_sight: bool
+    events: Path | None
+    delays: float | None
+
+
+class Outputs(NamedTuple):
+    """What is written."""
+
+    out: Path | None
+    summary: Path | None
+    picture: Path | None
+    animation: Path | None
 
 
 @click.command("run")
@@ -21,7 +59,7 @@ from trihex.cli.types import Amount, Metres, Name, Share, Whole
 @robot_options
 @click.option("--planner", type=Name("trihex.planners", "PLANNERS"), help="Who decides or plans. [default: fcost]")
 @click.option("--replan", is_flag=True, help="Plan whenever the world changes, in place of deciding step by step.")
-@click.option("--budget", type=Metres(), metavar="SECONDS", help="With --replan: what a plan may take. [default: any]")
+@click.option("--budget", type=Seconds(), help="With --replan: what a plan may take. [default: any]")
 @click.option("--sense", type=Amount("cells", 100), help="Robots know only what one of them saw, so many cells around.")
 @click.option("--line-of-sight", is_flag=True, help="With --sense: barriers hide what lies behind them.")
 @click.option("--events", type=PATH, metavar="FILE", help="What happens at which step, as .csv or .toml.")
@@ -33,24 +71,10 @@ from trihex.cli.types import Amount, Metres, Name, Share, Whole
 @click.option("--summary", type=PATH, metavar="FILE", help="The report as JSON; - writes it to the standard output.")
 @click.option("--picture", type=PATH, metavar="FILE", help="What robots came to know, as .png or .svg.")
 @click.option("--animation", type=PATH, metavar="FILE", help="The robots on their way, as .gif or .mp4.")
-def command(
-    area: Path | None,
-    planner: str | None,
-    replan: bool,
-    budget: float | None,
-    sense: float | None,
-    line_of_sight: bool,
-    events: Path | None,
-    delays: float | None,
-    plan: Path | None,
-    resume: Path | None,
-    max_steps: int,
-    out: Path | None,
-    summary: Path | None,
-    picture: Path | None,
-    animation: Path | None,
-    **options: Any,
-) -> int:
+@gathered("beginning", Beginning)
+@gathered("way", Way)
+@gathered("outputs", Outputs)
+def command(beginning: Beginning, way: Way, outputs: Outputs, max_steps: int, **options: Any) -> int:
     """Let robots run through a world that changes, is unknown to them, or makes them late.
 
     AREA is what `trihex plan` takes. In each step events happen, robots look around, and each is told one safe move.
@@ -60,71 +84,89 @@ def command(
     from trihex.formats import read_events, write_run
     from trihex.running import make_run_report
 
-    _check(out, summary, picture, animation)
-    if line_of_sight and sense is None:
+    _check_outputs(outputs)
+    if way.line_of_sight and way.sense is None:
         raise wrong_use("--line-of-sight is about what robots see: add --sense")
-    happening = read_events(events) if events else ()
+    events = read_events(way.events) if way.events else ()
+    _check_beginning(beginning, way)
+    if beginning.plan is not None:
+        run, plan = _followed(beginning.plan, way.delays or 0.0, options["seed"] or 0, max_steps)
+        told: dict[str, Any] = {"reference": plan}
+        is_over = run.steps < max_steps
+    else:
+        trial = _trial_of(beginning, way, events, options)
+        with bar("running", "robots") as progress:
+            run = trial.run(most_steps=max_steps, progress=progress)
+        told = {"seconds": trial.seconds}
+        is_over = trial.is_over
+    if outputs.out is not None:
+        with bar("writing", "bytes") as progress:
+            write_run(run, outputs.out, progress=progress)
+    report = make_run_report(run, **told)
+    _draw(run, outputs)
+    return _told(report, outputs.summary, is_over=is_over)
+
+
+def _check_outputs(outputs: Outputs) -> None:
+    from trihex.pictures import MOVIE_SUFFIXES, PICTURE_SUFFIXES as SUFFIXES
+
+    check_outputs(
+        (outputs.out, (".npz",), "a run"),
+        (outputs.summary, (), "a summary"),
+        (outputs.picture, SUFFIXES, "a picture"),
+        (outputs.animation, MOVIE_SUFFIXES, "a movie"),
+    )
+
+
+def _check_beginning(beginning: Beginning, way: Way) -> None:
+    """Raise if something is told that the plan or the run in a file says itself."""
+    area, plan, resume = beginning
     given = {
         "AREA": area,
-        "--sense": sense,
-        "--planner": planner,
+        "--sense": way.sense,
+        "--planner": way.planner,
         "--resume": resume and plan,
-        "--events": events and plan,
+        "--events": way.events and plan,
     }
     told = [name for name, value in given.items() if value is not None]
     if told and (plan or resume):
         raise wrong_use(f"--{'plan' if plan else 'resume'} says all itself, so {', '.join(told)} cannot be told")
-    trial, reference = None, "fcost"
-    if plan is not None:
-        run, reference = _followed(plan, delays or 0.0, options["seed"] or 0, max_steps)
-    else:
-        if resume is not None:
-            trial = _resumed(resume, happening, delays, replan=replan, budget=budget)
-        elif area is not None:
-            trial = _begun(
-                area, planner, sense, line_of_sight, happening, delays, options, replan=replan, budget=budget
-            )
-        else:
-            raise wrong_use("there is no AREA: name one, or add --plan PLAN or --resume RUN")
-        with bar("running", "robots") as progress:
-            run = trial.run(most_steps=max_steps, progress=progress)
-    if out is not None:
-        with bar("writing", "bytes") as progress:
-            write_run(run, out, progress=progress)
-    report = make_run_report(run, reference=reference, seconds=trial.seconds if trial else ())
-    _draw(run, picture, animation)
-    return _told(report, summary, is_over=trial.is_over if trial else run.steps < max_steps)
 
 
-def _check(out: Path | None, summary: Path | None, picture: Path | None, animation: Path | None) -> None:
-    from trihex.pictures import MOVIE_SUFFIXES, PICTURE_SUFFIXES as SUFFIXES
+def _trial_of(beginning: Beginning, way: Way, events: Any, options: dict[str, Any]) -> Any:
+    """Return the trial that begins in an area, or that goes on where a run ended."""
+    from trihex.running import Sensor, Trial
 
-    check_outputs(
-        (out, (".npz",), "a run"),
-        (summary, (), "a summary"),
-        (picture, SUFFIXES, "a picture"),
-        (animation, MOVIE_SUFFIXES, "a movie"),
+    if beginning.resume is not None:
+        return _resumed(beginning.resume, way, events)
+    if beginning.area is None:
+        raise wrong_use("there is no AREA: name one, or add --plan PLAN or --resume RUN")
+    draft = read_described(beginning.area, options)
+    scenario = complete(draft)
+    sensor = None if way.sense is None else Sensor(scenario.area.tessellation, way.sense, way.line_of_sight)
+    return Trial(
+        scenario,
+        way.planner or draft.planner or "fcost",
+        sensor=sensor,
+        events=events,
+        delay=way.delays or 0.0,
+        seed=scenario.seed or 0,
+        replan=way.replan,
+        budget=way.budget,
     )
 
 
-def _begun(
-    area: Path,
-    planner: str | None,
-    sense: float | None,
-    line_of_sight: bool,
-    events: Any,
-    delays: float | None,
-    options: dict[str, Any],
-    **plans: Any,
-) -> Any:
-    from trihex.running import Sensor, Trial
+def _resumed(path: Path, way: Way, events: Any) -> Any:
+    from trihex.formats import read_run
+    from trihex.running import resume_trial
 
-    draft = read_described(area, options)
-    scenario = complete(draft)
-    planner = planner or draft.planner or "fcost"
-    sensor = None if sense is None else Sensor(scenario.area.tessellation, sense, line_of_sight)
-    seed = scenario.seed or 0
-    return Trial(scenario, planner, sensor=sensor, events=events, delay=delays or 0.0, seed=seed, **plans)
+    if way.delays is not None:
+        raise wrong_use("--resume says all itself, so --delays cannot be told")
+    run = read_run(path)
+    late = [str(event) for event in events if event.step <= run.steps]
+    if late:
+        raise wrong_use(f"{path} is past step {run.steps}, so what happens must come later, not {late[0]}")
+    return resume_trial(run, events, replan=way.replan, budget=way.budget)
 
 
 def _followed(path: Path, delay: float, seed: int, most_steps: int) -> tuple[Any, Any]:
@@ -136,27 +178,14 @@ def _followed(path: Path, delay: float, seed: int, most_steps: int) -> tuple[Any
     return make_passing_order(plan).run(delay=delay, seed=seed, most_steps=most_steps), plan
 
 
-def _resumed(path: Path, events: Any, delays: float | None, **plans: Any) -> Any:
-    from trihex.formats import read_run
-    from trihex.running import resume_trial
-
-    if delays is not None:
-        raise wrong_use("--resume says all itself, so --delays cannot be told")
-    run = read_run(path)
-    late = [str(event) for event in events if event.step <= run.steps]
-    if late:
-        raise wrong_use(f"{path} is past step {run.steps}, so what happens must come later, not {late[0]}")
-    return resume_trial(run, events, **plans)
-
-
-def _draw(run: Any, picture: Path | None, animation: Path | None) -> None:
+def _draw(run: Any, outputs: Outputs) -> None:
     from trihex.pictures import picture_of_run, write_run_animation
 
-    if picture is not None:
-        picture_of_run(run).save(picture)
-    if animation is not None:
+    if outputs.picture is not None:
+        picture_of_run(run).save(outputs.picture)
+    if outputs.animation is not None:
         with bar("drawing", "frames") as progress:
-            write_run_animation(run, animation, progress=progress)
+            write_run_animation(run, outputs.animation, progress=progress)
 
 
 def _told(report: Any, summary: Path | None, *, is_over: bool) -> int:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import click
 
@@ -13,16 +13,22 @@ from trihex.cli.options import wrong_use
 from trihex.cli.progress import bar
 
 
-def make_tiles(
-    area: Path, out: Path | None, tile: int | None, jobs: int | None, scheduler: str | None, options: dict[str, Any]
-) -> None:
+class Tiling(NamedTuple):
+    """How large the tiles are, and who settles them; None where nothing is said."""
+
+    tile: int | None
+    jobs: int | None
+    scheduler: str | None
+
+
+def make_tiles(area: Path, out: Path | None, tiling: Tiling, options: dict[str, Any]) -> None:
     """Compute the N-scheme of the array `area` into the file `out`, and say so."""
     from trihex.areas import Tessellation
     from trihex.fields import TILE_SIDE as SIDE, make_tiled_field
 
     if out is None:
         raise wrong_use(f"{area} is settled tile by tile into a file: add --out FILE")
-    if jobs and scheduler:
+    if tiling.jobs and tiling.scheduler:
         raise wrong_use("--jobs and --scheduler exclude each other")
     places = options["destination"]
     if not places:
@@ -32,14 +38,14 @@ def make_tiles(
     kind = Tessellation(
         options["tessellation"] or "hexagonal", options["neighbourhood"] or "full", options["costs"] or "paper"
     )
-    with _executor(jobs, scheduler) as (executor, workers), bar("settling", "tiles") as progress:
+    with _executor(tiling) as (executor, workers), bar("settling", "tiles") as progress:
         field = make_tiled_field(
             area,
             places,
             out,
             kind,
             corners=options["corners"] or "allow",
-            side=tile or SIDE,
+            side=tiling.tile or SIDE,
             executor=executor,
             workers=workers,
             progress=progress,
@@ -49,8 +55,9 @@ def make_tiles(
 
 
 @contextmanager
-def _executor(jobs: int | None, scheduler: str | None) -> Iterator[tuple[Any, int]]:
+def _executor(tiling: Tiling) -> Iterator[tuple[Any, int]]:
     """Yield where tiles are settled, and how many at once."""
+    _, jobs, scheduler = tiling
     if scheduler:
         from trihex.studies import connected
 

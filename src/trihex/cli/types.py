@@ -65,43 +65,16 @@ class Whole(click.ParamType):  # type: ignore[type-arg]
         return number
 
 
-class Share(click.ParamType):  # type: ignore[type-arg]
-    """A number from 0 to 1."""
-
-    name = "share"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
-        """Return the number."""
-        try:
-            number = float(value)
-        except ValueError:
-            number = -1.0
-        if not 0 <= number <= 1:
-            raise click.UsageError(f"{_name_of(param)} must be a number from 0 to 1, not {value!r}", ctx)
-        return number
-
-
-class Metres(click.ParamType):  # type: ignore[type-arg]
-    """A length above 0."""
-
-    name = "metres"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
-        """Return the number."""
-        try:
-            number = float(value)
-        except ValueError:
-            number = -1.0
-        if not 0 < number < 1e9:
-            raise click.UsageError(f"{_name_of(param)} must be a number above 0, not {value!r}", ctx)
-        return number
-
-
 class Amount(click.ParamType):  # type: ignore[type-arg]
     """A number from 0 to `most`."""
 
     def __init__(self, name: str, most: float) -> None:
         self.name, self.most = name, most
+        self.rule = f"a number from 0 to {most:g}"
+
+    def holds(self, number: float) -> bool:
+        """Tell whether the number is one of these."""
+        return 0 <= number <= self.most
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
         """Return the number."""
@@ -109,9 +82,42 @@ class Amount(click.ParamType):  # type: ignore[type-arg]
             number = float(value)
         except ValueError:
             number = -1.0
-        if not 0 <= number <= self.most:
-            raise click.UsageError(f"{_name_of(param)} must be a number from 0 to {self.most:g}, not {value!r}", ctx)
+        if not self.holds(number):
+            raise click.UsageError(f"{_name_of(param)} must be {self.rule}, not {value!r}", ctx)
         return number
+
+
+class Share(Amount):
+    """A number from 0 to 1."""
+
+    def __init__(self) -> None:
+        super().__init__("share", 1)
+
+
+class Positive(Amount):
+    """A number above 0."""
+
+    def __init__(self, name: str) -> None:
+        super().__init__(name, 1e9)
+        self.rule = "a number above 0"
+
+    def holds(self, number: float) -> bool:
+        """Tell whether the number is one of these."""
+        return 0 < number < self.most
+
+
+class Metres(Positive):
+    """A length above 0."""
+
+    def __init__(self) -> None:
+        super().__init__("metres")
+
+
+class Seconds(Positive):
+    """A duration above 0."""
+
+    def __init__(self) -> None:
+        super().__init__("seconds")
 
 
 class Pair(click.ParamType):  # type: ignore[type-arg]

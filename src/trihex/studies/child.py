@@ -1,6 +1,6 @@
-"""Child: the process that runs trials for a worker, ``python -m trihex.studies.child [BYTES]``.
+"""Child: the process that runs cases for a worker, ``python -m trihex.studies.child [BYTES]``.
 
-It reads trials from its standard input and writes to its standard output, for each, what is known of its row and then
+It reads cases from its standard input and writes to its standard output, for each, what is known of its row and then
 the row. It ends when its input does, so it never outlives the one that asks.
 """
 
@@ -20,25 +20,25 @@ def main(arguments: list[str]) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the one that asks
     asked, told = Connection(os.dup(0), writable=False), Connection(os.dup(1), readable=False)
     os.dup2(2, 1)  # what libraries print must not get between the rows
-    trials: SimpleQueue[Any] = SimpleQueue()
-    threading.Thread(target=_read, args=(asked, trials), daemon=True).start()
+    cases: SimpleQueue[Any] = SimpleQueue()
+    threading.Thread(target=_read, args=(asked, cases), daemon=True).start()
 
-    from trihex.studies.case import run_trial, warm_up
+    from trihex.studies.case import run_case, warm_up
 
     warm_up("greedy")
     if arguments:
         limit_memory(int(arguments[0]))
     told.send("ready")
     while True:
-        trial = trials.get()
-        told.send(("row", run_trial(trial, lambda row: told.send(("begun", row)))))
+        case = cases.get()
+        told.send(("row", run_case(case, lambda row: told.send(("begun", row)))))
 
 
-def _read(asked: Connection, trials: SimpleQueue[Any]) -> None:
-    """Pass on trials; end the process as soon as no more can come, even amid a trial."""
+def _read(asked: Connection, cases: SimpleQueue[Any]) -> None:
+    """Pass on cases; end the process as soon as no more can come, even amid a case."""
     while True:
         try:
-            trials.put(asked.recv())
+            cases.put(asked.recv())
         except (EOFError, OSError):
             os._exit(0)
 

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from trihex.errors import MissingExtraError, StudyError
-from trihex.studies.case import versions
+from trihex.studies.row import versions
 
 _SECONDS = 10
 

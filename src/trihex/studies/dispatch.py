@@ -1,4 +1,4 @@
-"""Run: all runs of a study done by some executor, kept as they come, in the order of the study."""
+"""Dispatch: all runs of a study done by some executor, kept as they come, in the order of the study."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from typing import Any, Protocol
 
 from trihex.errors import StudyError
 from trihex.files import check_output
-from trihex.studies.case import COLUMNS, Row, Trial, blank_row
 from trihex.studies.journal import Journal
 from trihex.studies.results import check_results, write_results
+from trihex.studies.row import COLUMNS, Case, Row, blank_row
 from trihex.studies.study import Study, make_study, read_study
-from trihex.studies.worker import LIVES, Limits, close_workers, run_trials
+from trihex.studies.worker import LIVES, Limits, close_workers, run_cases
 
 Progress = Callable[[int, int], None]
 # Groups of runs that each worker has at a time, so that none waits, and how many workers there are if nobody tells.
@@ -65,7 +65,7 @@ def run_study(
     Returns
     -------
     list of dict
-        With the keys of `trihex.studies.case.COLUMNS`. A run that fails is a row with its `error`.
+        With the keys of `trihex.studies.row.COLUMNS`. A run that fails is a row with its `error`.
 
     Raises
     ------
@@ -175,7 +175,7 @@ class _Group:
     """Runs given to a worker together."""
 
     runs: list[int]
-    trials: list[Trial]
+    cases: list[Case]
     lives: int = LIVES
 
 
@@ -204,18 +204,18 @@ def _groups(study: Study, todo: Iterator[int], pace: _Pace) -> Iterator[_Group]:
     """Yield groups of runs; those of one scenario stay together unless there are too many."""
     group = _Group([], [])
     for run in todo:
-        trial = study.trials[run]
-        is_full = len(group.runs) >= pace.group_size and not _is_alike(trial, group.trials[-1])
+        case = study.trials[run]
+        is_full = len(group.runs) >= pace.group_size and not _is_alike(case, group.cases[-1])
         if is_full or len(group.runs) >= _LARGEST_GROUP:
             yield group
             group = _Group([], [])
         group.runs.append(run)
-        group.trials.append(trial)
+        group.cases.append(case)
     if group.runs:
         yield group
 
 
-def _is_alike(one: Trial, other: Trial) -> bool:
+def _is_alike(one: Case, other: Case) -> bool:
     same = (one[key] is other[key] or one[key] == other[key] for key in one if key != "planner")
     return one.keys() == other.keys() and all(same)
 
@@ -227,14 +227,14 @@ def _done(study: Study, todo: Iterator[int], executor: Executor | None, *, apart
     groups = _groups(study, todo, pace)
     if executor is None:
         for group in groups:
-            for run, trial in zip(group.runs, group.trials, strict=True):
-                yield [_numbered(run, row) for row in run_trials([trial], limits)]
+            for run, case in zip(group.runs, group.cases, strict=True):
+                yield [_numbered(run, row) for row in run_cases([case], limits)]
         return
     done: SimpleQueue[tuple[_Group, Any]] = SimpleQueue()
     in_flight: dict[int, Any] = {}
 
     def submit(group: _Group) -> None:
-        future = executor.submit(run_trials, group.trials, limits, apart)
+        future = executor.submit(run_cases, group.cases, limits, apart)
         in_flight[group.runs[0]] = future
         future.add_done_callback(lambda future: done.put((group, future)))
 
@@ -274,7 +274,7 @@ def _collected(
                 submit(group)
                 continue
             text = f"no worker could do it: {type(error).__name__}: {' '.join(str(error).split())[:300]}"
-            made = [{**blank_row(trial), "error": text} for trial in group.trials]
+            made = [{**blank_row(case), "error": text} for case in group.cases]
         rows += [_numbered(run, row) for run, row in zip(group.runs, made, strict=True)]
     return rows
 

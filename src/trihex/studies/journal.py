@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from trihex.errors import StudyError
-from trihex.studies.case import Row, versions
+from trihex.studies.row import Row, versions
 from trihex.studies.study import Study
 
 _KIND = "journal of a trihex study, which goes on with the same command"

@@ -11,7 +11,7 @@ from typing import Any
 
 from trihex.errors import MissingExtraError
 from trihex.files import new_file, suffix_of
-from trihex.studies.case import COLUMNS, Row
+from trihex.studies.row import COLUMNS, Row
 
 SUFFIXES = (".csv", ".parquet")
 _ROWS_AT_ONCE = 10_000

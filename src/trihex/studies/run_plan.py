@@ -1,4 +1,4 @@
-"""Running: what robots do that are late, or have no map, as the plan that it comes to."""
+"""Run plan: what robots do that are late, or have no map, as the plan that it comes to."""
 
 from __future__ import annotations
 

@@ -17,8 +17,9 @@ from trihex.files import read_bytes
 from trihex.formats import complaint, parse_toml
 from trihex.formats.schema import check_document
 from trihex.record import Record
-from trihex.studies.case import hash_of_scenario, read_area_of, try_planner, versions
+from trihex.studies.case import read_area_of, try_planner
 from trihex.studies.grid import Grid, variants_of
+from trihex.studies.row import hash_of_scenario, versions
 from trihex.studies.schema import AreaAxis, PlannerAxis, StudyTable, bytes_of
 
 # What the key of a run is called, and that of its axis in a file; the last changes fastest, so that the runs of one
@@ -103,7 +104,7 @@ def make_study(runs: Iterable[Mapping[str, Any]], folder: str | os.PathLike[str]
     >>> len(study), study.trials[1]["planner"]["name"]
     (2, 'fcost')
     """
-    trials, mistakes, digest = [], [], hashlib.sha256(versions()["trihex"].encode())
+    cases, mistakes, digest = [], [], hashlib.sha256(versions()["trihex"].encode())
     check = _Check(Path(folder))
     for i, run in enumerate(runs):
         wanted = {name: value for name, value in run.items() if name != "scenario"}
@@ -116,16 +117,16 @@ def make_study(runs: Iterable[Mapping[str, Any]], folder: str | os.PathLike[str]
             found = found or ["scenario must be a Scenario" if given is not None else "a run must not vary anything"]
             mistakes += [f"run {i}: {mistake}" for mistake in found]
             continue
-        trial = study.trials[0]
+        case = study.trials[0]
         if given is not None:
-            trial = {"scenario": given, "planner": trial["planner"], "bound": trial["bound"]}
+            case = {"scenario": given, "planner": case["planner"], "bound": case["bound"]}
             digest.update(hash_of_scenario(given).encode())
-            digest.update(json.dumps(trial["planner"], sort_keys=True).encode())
+            digest.update(json.dumps(case["planner"], sort_keys=True).encode())
         digest.update(study.key.encode())
-        trials.append(trial)
+        cases.append(case)
     if mistakes:
         raise StudyError("\n".join(mistakes[:50]))
-    return Study(trials, digest.hexdigest())
+    return Study(cases, digest.hexdigest())
 
 
 def _study_of(document: dict[str, Any], check: _Check) -> tuple[Study | None, list[str]]:

@@ -1,4 +1,4 @@
-"""Worker: runs trials in a child process, so that limits can be kept and its death is no more than an error."""
+"""Worker: runs cases in a child process, so that limits can be kept and its death is no more than an error."""
 
 from __future__ import annotations
 
@@ -14,9 +14,10 @@ from time import monotonic
 from typing import NamedTuple
 
 from trihex.errors import StudyError
-from trihex.studies.case import Row, Trial, blank_row, run_trial
+from trihex.studies.case import run_case
+from trihex.studies.row import Case, Row, blank_row
 
-# How often a trial may lose its child before it is given up, and how often a child may die before it is ready. Each
+# How often a case may lose its child before it is given up, and how often a child may die before it is ready. Each
 # loss may be somebody else's doing, such as that of the kernel when memory is short.
 LIVES = 3
 _STARTS = 5
@@ -39,14 +40,14 @@ class Worker:
         self._told: Connection | None = None
         self._closed = False
 
-    def run(self, trial: Trial) -> Row:
-        """Return the row of a trial, whatever becomes of the child."""
-        known, status = blank_row(trial), 0
+    def run(self, case: Case) -> Row:
+        """Return the row of a case, whatever becomes of the child."""
+        known, status = blank_row(case), 0
         for _ in range(LIVES):
             ask, told = self._ready()
             deadline: float | None = None
             try:
-                ask.send(trial)
+                ask.send(case)
                 while told.poll(None if deadline is None else max(0.0, deadline - monotonic())):
                     kind, row = told.recv()
                     if kind == "row":
@@ -101,7 +102,7 @@ class Worker:
         return child.wait()
 
     def close(self) -> None:
-        """End the child for good, from any thread; a trial that runs there is lost."""
+        """End the child for good, from any thread; a case that runs there is lost."""
         self._closed = True
         if (child := self._child) is not None:
             child.kill()
@@ -110,15 +111,13 @@ class Worker:
 
 def _connections(child: subprocess.Popen[bytes]) -> tuple[Connection, Connection]:
     """Return how to send to a child and how to hear from it."""
-    assert child.stdin is not None
-    assert child.stdout is not None
-    ends = (
-        Connection(os.dup(child.stdin.fileno()), readable=False),
-        Connection(os.dup(child.stdout.fileno()), writable=False),
-    )
-    child.stdin.close()
-    child.stdout.close()
-    return ends
+    if child.stdin is None or child.stdout is None:
+        raise StudyError("a child must be started with pipes for its standard input and output")
+    with child.stdin, child.stdout:
+        return (
+            Connection(os.dup(child.stdin.fileno()), readable=False),
+            Connection(os.dup(child.stdout.fileno()), writable=False),
+        )
 
 
 def _reason(status: int) -> str:
@@ -129,25 +128,25 @@ _own = threading.local()
 _workers: list[Worker] = []
 
 
-def run_trials(trials: Sequence[Trial], limits: Limits, apart: bool = False) -> list[Row]:
-    """Return the rows of some trials, one after the other; this is what executors are given to run.
+def run_cases(cases: Sequence[Case], limits: Limits, apart: bool = False) -> list[Row]:
+    """Return the rows of some cases, one after the other; this is what executors are given to run.
 
     Parameters
     ----------
-    trials : sequence of mapping
+    cases : sequence of mapping
     limits : Limits
     apart : bool
         Whether to run them in a child even if there are no limits.
     """
     if not apart and limits == Limits():
-        return [run_trial(trial) for trial in trials]
+        return [run_case(case) for case in cases]
     worker: Worker | None = getattr(_own, "worker", None)
     if worker is None or worker.limits != limits:
         if worker is not None:
             worker.kill()
         worker = _own.worker = Worker(limits)
         _workers.append(worker)
-    return [worker.run(trial) for trial in trials]
+    return [worker.run(case) for case in cases]
 
 
 def close_workers() -> None:

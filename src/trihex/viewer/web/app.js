@@ -1,53 +1,193 @@
-// App: the page as a whole; each part adds the methods of one noun.
+// App: the page as a whole: the document, the plans for it, and the parts of the page, each with the state of one noun.
 
-import { Pane } from "./pane.js";
-import { stored } from "./storage.js";
-import { withPanel } from "./panel.js";
-import { withHistory } from "./history.js";
-import { withQuestions } from "./questions.js";
-import { withGrowth } from "./growth.js";
-import { withPicture } from "./picture.js";
-import { withResults } from "./results.js";
-import { withClock } from "./clock.js";
-import { withHand } from "./hand.js";
-import { withKeys } from "./keys.js";
-import { withDialogs } from "./dialogs.js";
-import { withLive } from "./live.js";
+import { decode } from "./bundles.js";
+import { documentOf } from "./documents.js";
+import { Bar } from "./bar.js";
+import { Clock } from "./clock.js";
+import { Dialog } from "./dialog.js";
+import { Draws } from "./draws.js";
+import { Field } from "./field.js";
+import { Followed } from "./followed.js";
+import { Growing } from "./growing.js";
+import { Hand } from "./hand.js";
+import { History } from "./history.js";
+import { Keys } from "./keys.js";
+import { LivePanel } from "./livepanel.js";
+import { Opening } from "./opening.js";
+import { layOut } from "./panel.js";
+import { Planning } from "./planning.js";
+import { Questions } from "./questions.js";
+import { Readout } from "./readout.js";
+import { Results } from "./results.js";
+import { Rules } from "./rules.js";
+import { runOf } from "./runs.js";
+import { Saving } from "./saving.js";
+import { Stage } from "./stage.js";
+import { Status } from "./status.js";
+import { Theme } from "./theme.js";
+import { Tools } from "./tools.js";
 
-const PARTS = [withPanel, withHistory, withQuestions, withGrowth, withPicture, withResults, withClock, withHand, withKeys, withDialogs, withLive];
-
-export class App extends PARTS.reduce((Base, add) => add(Base), class {}) {
+export class App {
   constructor(root, settings, host, first) {
-    super();
     Object.assign(this, { root, settings, host });
     this.doc = null;
-    this.runs = [null, null];
-    this.past = [];
-    this.future = [];
-    this.tool = host ? "wall" : "move";
-    this.clock = 0;
-    this.isPlaying = false;
-    this.follow = -1;
-    this.fields = null; // { doc, distance, directions }
-    this.growth = null; // { doc, values, counts, cells, changes, ends, generation, isComplete, isPlaying }
-    this.live = null; // a run that is under way, see live.js
-    this.job = null;
-    this.pointers = new Map();
-    this.stroke = null;
-    this.theme = stored("trihex-theme") ?? "auto";
+    this.runs = [null, null]; // plans: for the document, and beside it
     this.listeners = new AbortController();
-    this.build();
-    this.panes = [new Pane(this.canvases[0], settings.colours), new Pane(this.canvases[1], settings.colours)];
-    new ResizeObserver(() => this.resize()).observe(this.stage);
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.applyTheme(), { signal: this.listeners.signal });
-    this.applyTheme();
-    this.choose(this.tool);
+    this.isClosed = false;
+    this.#makeParts();
+    this.shell = layOut(this);
+    root.replaceChildren(this.shell);
+    this.#listen();
+    this.theme.apply();
+    this.tools.choose(host ? "wall" : "move");
     if (first) this.take(first);
-    else this.generate({ generator: "rooms", tessellation: "hexagonal", height: 32, width: 48, seed: 1 }, true);
+    else this.draws.begin();
+  }
+
+  #makeParts() {
+    this.history = new History();
+    this.status = new Status();
+    this.dialog = new Dialog();
+    this.theme = new Theme(this);
+    this.questions = new Questions(this);
+    this.clock = new Clock(this);
+    this.field = new Field(this);
+    this.growing = new Growing(this);
+    this.followed = new Followed(this);
+    this.results = new Results(this);
+    this.readout = new Readout(this);
+    this.stage = new Stage(this);
+    this.tools = new Tools(this);
+    this.hand = new Hand(this);
+    this.keys = new Keys(this);
+    this.bar = new Bar(this);
+    // What there is to be asked of a host.
+    this.rules = this.host && new Rules(this);
+    this.draws = this.host && new Draws(this);
+    this.planning = this.host && new Planning(this);
+    this.livePanel = this.host && new LivePanel(this);
+    this.opening = this.host && new Opening(this);
+    this.saving = this.host && new Saving(this);
+  }
+
+  #listen() {
+    this.keys.listen();
+    this.shell.addEventListener("dragover", (event) => event.preventDefault());
+    this.shell.addEventListener("drop", (event) => {
+      event.preventDefault();
+      if (event.dataTransfer.files[0]) this.opening?.openFile(event.dataTransfer.files[0]);
+    });
+    new ResizeObserver(() => this.stage.resize()).observe(this.stage.element);
   }
 
   close() {
     this.listeners.abort();
     this.isClosed = true;
+  }
+
+  // ---- what the parts hold
+
+  get panes() { return this.stage.panes; }
+  get job() { return this.questions.job; }
+  get fields() { return this.field.known; }
+  get growth() { return this.growing.growth; }
+  get live() { return this.livePanel?.run ?? null; }
+  get steps() {
+    return this.live ? this.live.last.step : Math.max(0, ...this.runs.map((run) => run?.playback.steps ?? 0));
+  }
+  get fraction() { return this.live ? this.live.fraction : this.clock.at - this.clock.step; }
+  get request() { return { document: this.doc.header }; }
+
+  say(words, isWarning) { this.status.say(words, isWarning); }
+  ask(header, arrays, words, onPart) { return this.questions.ask(header, arrays, words, onPart); }
+  leaveLive() { this.livePanel?.leave(); }
+
+  // What a plan needs and the document lacks, in words; "" if nothing.
+  missing() {
+    const { destinations, robots } = this.doc;
+    if (!destinations.length) return "There is no destination yet: choose the tool Destination and click a cell.";
+    if (!robots.length) return "There are no robots yet: scatter some, or place them with the tool Robot.";
+    return "";
+  }
+
+  // ---- the document and its plans
+
+  // Take an answer of the host: a document, and the plan for it if there is one.
+  take({ header, arrays }, { isEdit = true } = {}) {
+    const doc = documentOf(header.document, arrays), run = header.summary ? runOf({ header, arrays }, doc) : null;
+    // A file may hold the plan beside it as well.
+    const beside = arrays.beside ? runOf(decode(arrays.beside.slice())) : null;
+    this.planning?.choose(header.planner);
+    if (isEdit) this.edit(doc, [run, beside]);
+    else this.set(doc, [run, beside]);
+    if (!run) return;
+    this.tools.choose("move");
+    this.say("Press Play.");
+    this.planning?.bound();
+  }
+
+  // Change some of the document.
+  change(changes) {
+    this.leaveLive();
+    this.edit({ ...this.doc, ...changes });
+  }
+
+  // Go on with another document, in a way that can be undone.
+  edit(doc, runs = [null, null]) {
+    this.leaveLive();
+    if (this.doc) this.history.keep({ doc: this.doc, runs: this.runs });
+    this.set(doc, runs);
+  }
+
+  undo() { this.#travel((now) => this.history.back(now)); }
+  redo() { this.#travel((now) => this.history.forth(now)); }
+  #travel(find) {
+    this.leaveLive();
+    const state = find({ doc: this.doc, runs: this.runs });
+    if (state) this.set(state.doc, state.runs);
+  }
+
+  // Show another document and its plans, and drop what belonged to the one before.
+  set(doc, runs) {
+    this.replace(doc, runs);
+    this.field.adopt(doc, runs[0]);
+    this.growing.fit(doc);
+    this.clock.fit();
+    this.followed.fit(doc);
+    this.refresh();
+    this.field.changed();
+  }
+
+  replace(doc, runs = this.runs) { Object.assign(this, { doc, runs }); }
+
+  // ---- what is shown
+
+  refresh() {
+    for (const part of [this.bar, this.rules, this.draws, this.growing, this.planning]) part?.show();
+    this.#sayNext();
+    this.livePanel?.show();
+    this.stage.show();
+    this.showNumbers();
+    this.followed.follow(this.followed.robot);
+    this.clock.show();
+  }
+
+  // What to do next, unless there is a warning to be read first.
+  #sayNext() {
+    const { host, live, runs, status } = this;
+    if (host && !live && !runs[0]) {
+      const missing = this.missing();
+      if (!status.isWarning || !missing) this.say(missing || "Press Plan to find paths for all robots.");
+    }
+    if (runs[0] && !status.text) this.say("Press Play.");
+  }
+
+  showNumbers() {
+    this.results.show();
+    if (!this.live) return;
+    this.clock.show();
+    this.followed.show();
+    this.followed.centre();
+    this.stage.invalidate();
   }
 }

@@ -1,8 +1,8 @@
 // Bundles: a JSON header with arrays in one string of bytes, as in bundle.py.
 
-export const TYPES = { u1: Uint8Array, u2: Uint16Array, i4: Int32Array, f8: Float64Array };
-export const MAGIC = [...new TextEncoder().encode("trihex1\n")];
-export const whole = (length) => Math.ceil(length / 8) * 8;
+const TYPES = { u1: Uint8Array, u2: Uint16Array, i4: Int32Array, f8: Float64Array };
+const MAGIC = [...new TextEncoder().encode("trihex1\n")];
+const whole = (length) => Math.ceil(length / 8) * 8;
 
 export function decode(bytes) {
   if (bytes.byteOffset % 8) bytes = bytes.slice();

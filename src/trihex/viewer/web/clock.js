@@ -1,8 +1,34 @@
-// Clock: playing, and the frames of the screen.
+// Clock: which step is shown, how fast it goes on, and the controls for it.
 
-import { SPEEDS } from "./panel.js";
+import { h, number } from "./words.js";
+import { button } from "./controls.js";
 
-export const withClock = (Base) => class extends Base {
+const SPEEDS = [0.5, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96]; // steps per second
+
+export class Clock {
+  constructor(app) {
+    this.app = app;
+    this.at = 0; // a step, and the share of the next that has passed
+    this.isPlaying = false;
+    this.shown = null; // the step and the document that the page tells of
+    this.playButton = button("Play", () => this.toggle(), { class: "primary play", title: "Space" });
+    this.scrubber = h("input", { type: "range", min: 0, max: 0, value: 0, step: "any", class: "scrub",
+      "aria-label": "Step", oninput: () => this.seek(Number(this.scrubber.value)) });
+    this.text = h("output", { class: "clock" });
+    this.speed = h("input", { type: "range", min: 0, max: SPEEDS.length - 1, value: 5,
+      "aria-label": "Steps per second", oninput: () => this.setSpeed(SPEEDS[this.speed.value]) });
+    this.speedText = h("span", { class: "unit" });
+    this.element = h("div", { class: "transport", role: "group", "aria-label": "Playback" },
+      button("|‹", () => this.seek(0), { "aria-label": "To the start", title: "Home" }),
+      button("‹", () => this.back(), { "aria-label": "Step back", title: "," }), this.playButton,
+      button("›", () => this.forth(), { "aria-label": "Step forward", title: "." }),
+      button("›|", () => this.seek(app.steps), { "aria-label": "To the end", title: "End" }),
+      this.scrubber, this.text, h("label", { class: "speed" }, h("span", {}, "Speed"), this.speed, this.speedText));
+    this.setSpeed(6);
+  }
+
+  get step() { return Math.floor(this.at); }
+
   setSpeed(speed) {
     this.stepsPerSecond = speed;
     this.speed.value = SPEEDS.indexOf(speed);
@@ -10,92 +36,86 @@ export const withClock = (Base) => class extends Base {
     this.speed.setAttribute("aria-valuetext", `${speed} steps per second`);
   }
 
-  stepForward() {
-    if (!this.live) return this.seek(Math.floor(this.clock) + 1);
-    this.live.wantsStep = true;
-    this.invalidate();
+  faster(by) {
+    const wanted = SPEEDS.indexOf(this.stepsPerSecond) + by;
+    this.setSpeed(SPEEDS[Math.max(0, Math.min(SPEEDS.length - 1, wanted))]);
   }
 
-  togglePlay() {
-    if (this.live) {
-      this.live.isPlaying = !this.live.isPlaying;
-      this.showClock();
-      return this.invalidate();
+  back() { this.seek(Math.ceil(this.at) - 1); }
+
+  forth() {
+    const { live, stage } = this.app;
+    if (!live) return this.seek(this.step + 1);
+    live.wantStep();
+    stage.invalidate();
+  }
+
+  seek(at) {
+    const { live, steps, stage } = this.app;
+    if (live) return;
+    this.at = Math.max(0, Math.min(at, steps));
+    this.show();
+    stage.invalidate();
+  }
+
+  toggle() {
+    const { app } = this, { live } = app;
+    if (live) {
+      live.toggle();
+      this.show();
+      return app.stage.invalidate();
     }
-    if (!this.runs[0]) return this.host ? this.say(this.missing() || "Press Plan first.", true) : undefined;
-    if (!this.isPlaying && this.clock >= this.steps) this.clock = 0;
+    if (!app.runs[0]) return app.host ? app.say(app.missing() || "Press Plan first.", true) : undefined;
+    if (!this.isPlaying && this.at >= app.steps) this.at = 0;
     this.isPlaying = !this.isPlaying;
-    if (this.isPlaying) this.say("Playing. Click a robot to follow it.");
-    this.showClock();
-    this.invalidate();
+    if (this.isPlaying) app.say("Playing. Click a robot to follow it.");
+    this.show();
+    app.stage.invalidate();
   }
 
-  seek(clock) {
-    if (this.live) return;
-    this.clock = Math.max(0, Math.min(clock, this.steps));
-    this.showClock();
-    this.invalidate();
+  rewind() { this.at = 0; }
+  pause() { this.isPlaying = false; }
+
+  // Keep within what is shown now.
+  fit() {
+    this.at = Math.min(this.at, this.app.steps);
+    if (!this.app.runs[0]) this.isPlaying = false;
   }
 
-  invalidate() {
-    if (this.isWaiting || this.isClosed) return;
-    this.isWaiting = true;
-    requestAnimationFrame((time) => this.tick(time));
+  // Let some seconds pass.
+  tick(passed) {
+    const { app } = this;
+    if (!this.isPlaying) return;
+    this.at = Math.min(app.steps, this.at + passed * this.stepsPerSecond);
+    if (this.at >= app.steps) {
+      this.isPlaying = false;
+      app.say("The last robot has arrived.");
+    }
+    this.show();
   }
 
-  tick(time) {
-    this.isWaiting = false;
-    if (!this.panes || !this.doc || !this.shell.isConnected) return;
-    const passed = Math.min(0.25, (time - (this.lastTick ?? time)) / 1000);
-    this.lastTick = time;
-    const isRunning = this.live && this.liveTick(passed);
-    if (this.isPlaying) {
-      this.clock = Math.min(this.steps, this.clock + passed * this.stepsPerSecond);
-      if (this.clock >= this.steps) {
-        this.isPlaying = false;
-        this.say("The last robot has arrived.");
-      }
-      this.showClock();
-    }
-    if (this.growth?.isPlaying) this.growTick(passed);
-    const step = Math.floor(this.clock);
-    this.panes.forEach((pane, i) => {
-      if (this.live || (i && !this.runs[1])) return;
-      this.runs[i]?.playback.seek(step);
-      pane.draw(step >= (this.runs[i]?.playback.steps ?? 0) ? 0 : this.clock - step);
-    });
-    if (this.panes.some((pane) => pane.isRough)) {
-      clearTimeout(this.settling);
-      this.settling = setTimeout(() => this.settle(), 150);
-    }
-    if (this.isPlaying || this.growth?.isPlaying || isRunning) this.invalidate();
-    else this.lastTick = undefined;
+  show() {
+    const { live, runs, steps } = this.app;
+    this.scrubber.max = steps;
+    this.scrubber.value = this.at;
+    this.scrubber.disabled = !runs[0];
+    this.scrubber.setAttribute("aria-valuetext", `step ${this.step} of ${steps}`);
+    this.playButton.disabled = !runs[0] && !live;
+    this.playButton.textContent = this.isPlaying || live?.isPlaying ? "Pause" : "Play";
+    if (live) this.text.textContent = `step ${number(steps)}, live`;
+    else this.text.textContent = runs[0] ? `step ${number(this.step)} / ${number(steps)}` : "no plan";
+    this.#showStep(runs.filter(Boolean));
   }
 
-  settle() {
-    for (const pane of this.panes) {
-      if (!pane.isRough) continue;
-      pane.isRough = false;
-      if (pane.view.scale < 1) pane.changed("map");
-    }
-    this.invalidate();
+  // What depends on the step is made anew only where there is another one.
+  #showStep(runs) {
+    const { doc, steps, results, followed } = this.app;
+    if (!runs.length) return;
+    results.chart.show(this.at / Math.max(1, steps));
+    const step = `${this.step} ${runs.map((run) => run.plan + run.summary.planner)}`;
+    if (this.shown?.step === step && this.shown.doc === doc) return;
+    this.shown = { step, doc };
+    results.showStep(this.step);
+    if (followed.robot >= 0) followed.show();
   }
-
-  growTick(passed) {
-    const { growth } = this, last = growth.ends.length - 1;
-    // The whole field in some four seconds.
-    const edge = growth.doc.header.costs === "euclidean" ? 1000 : 10;
-    const rate = Math.max(8, this.panes[0].options.most / edge / 4);
-    growth.at = Math.min(last, growth.at + passed * rate);
-    const isEnd = growth.isComplete && growth.at >= last;
-    if (Math.floor(growth.at) !== growth.generation || isEnd) {
-      const { at } = growth;
-      this.setGeneration(Math.floor(growth.at));
-      growth.at = at;
-    }
-    if (isEnd) {
-      growth.isPlaying = false;
-      this.refresh();
-    }
-  }
-};
+}

@@ -1,6 +1,9 @@
 // Colours: as bytes, as text, mixed.
 
-export const DARK = { free: [43, 47, 54], barrier: [146, 152, 162], unreached: [84, 82, 90], moving: [86, 180, 233], stranded: [250, 250, 250], page: [24, 26, 30], fog: [66, 74, 92], fog_barrier: [104, 114, 136] };
+export const DARK = {
+  free: [43, 47, 54], barrier: [146, 152, 162], unreached: [84, 82, 90], moving: [86, 180, 233],
+  stranded: [250, 250, 250], page: [24, 26, 30], fog: [66, 74, 92], fog_barrier: [104, 114, 136],
+};
 export const LIGHT = { page: [233, 234, 236] };
 
 export const packed = ([r, g, b]) => (255 << 24) | (b << 16) | (g << 8) | r;

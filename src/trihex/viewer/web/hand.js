@@ -1,259 +1,215 @@
-// Hand: pointers, strokes, and what they do to the document.
+// Hand: pointers on the panes, and what they do there with a tool.
 
-import { number } from "./words.js";
-import { NOT_REACHED, without, plus, shapeOf, centreOf } from "./documents.js";
 import { HIDDEN, Still } from "./playback.js";
+import { Stroke, brushed, isSameDocument } from "./stroke.js";
 
-export const TOOLS = [
-  ["move", "Move", "V", "Drag a robot or a destination to another cell; drag the ground to move the picture; click a robot to follow it.", "M9 3v12M3 9h12M9 3l-2 2M9 3l2 2M9 15l-2-2M9 15l2-2M3 9l2-2M3 9l2 2M15 9l-2-2M15 9l-2 2"],
-  ["wall", "Wall", "W", "Paint barriers.", "M2 4h14v4H2zM2 8h14v4H2zM7 4v4M12 8v4M6 8v4M10 12v3H2v-3M10 12h6v3h-6"],
-  ["erase", "Erase", "E", "Remove barriers, robots and destinations.", "M7 15h9M3 11l7-7 5 5-6 6H6z"],
-  ["destination", "Destination", "D", "Click a cell to set a destination there, or to take it away.", "M9 16s-5-5-5-9a5 5 0 0 1 10 0c0 4-5 9-5 9zM9 7.5v-.1"],
-  ["robot", "Robot", "R", "Click free cells to place robots, or to take them away.", "M4 9a5 5 0 1 0 10 0a5 5 0 1 0-10 0M7 8v1M11 8v1"],
-];
+const SLACK = 6; // pixels that a click may move
+const NOT_CARRIED = "Robots that run cannot be carried; take one away with Erase, and let another join.";
 
-export const withHand = (Base) => class extends Base {
-  resize() {
-    if (!this.panes) return;
-    const ratio = Math.min(window.devicePixelRatio || 1, 2);
-    this.panes.forEach((pane, i) => {
-      if (this.paneElements[i].hidden) return;
-      const box = this.canvases[i].getBoundingClientRect();
-      pane.resize(Math.max(16, Math.round(box.width * ratio)), Math.max(16, Math.round(box.height * ratio)));
-    });
-    this.invalidate();
+export class Hand {
+  constructor(app) {
+    this.app = app;
+    this.pointers = new Map(); // that are down: where they are, and on which pane
+    this.pinch = null; // of two pointers: how far apart they are, and where their middle is
+    this.stroke = null; // of one pointer: a Stroke, or { kind: "pan" or "carry", ... }
+    app.panes.forEach(({ canvas }, i) => this.#listen(canvas, i));
   }
 
-  place(event, i) {
-    const canvas = this.canvases[i], box = canvas.getBoundingClientRect();
-    return [((event.clientX - box.left) * canvas.width) / box.width, ((event.clientY - box.top) * canvas.height) / box.height];
+  #listen(canvas, i) {
+    const on = (name, does) => canvas.addEventListener(name, does, { passive: false });
+    on("pointerdown", (event) => this.#down(event, i));
+    on("pointermove", (event) => this.#move(event, i));
+    on("pointerup", (event) => this.#up(event, i));
+    on("pointercancel", (event) => this.#up(event, i));
+    on("pointerleave", () => { if (!this.pointers.size) this.app.readout.show(i, -1); });
+    on("wheel", (event) => this.#wheel(event, i));
+    on("contextmenu", (event) => event.preventDefault());
   }
 
-  pointerDown(event, i) {
+  #pointOf(event, i) {
+    const { canvas } = this.app.panes[i], box = canvas.getBoundingClientRect();
+    const px = ((event.clientX - box.left) * canvas.width) / box.width;
+    return [px, ((event.clientY - box.top) * canvas.height) / box.height];
+  }
+
+  #down(event, i) {
+    const { app } = this, pane = app.panes[i], { button, pointerId, shiftKey } = event, tool = app.tools.chosen;
     event.preventDefault();
-    this.canvases[i].focus({ preventScroll: true });
-    try { this.canvases[i].setPointerCapture(event.pointerId); } catch { /* a pointer of a test */ }
-    const [px, py] = this.place(event, i);
-    this.pointers.set(event.pointerId, { px, py, i });
-    this.setCursor(-1);
-    if (this.pointers.size === 2) return this.beginPinch(i);
-    const isPan = event.button === 1 || event.button === 2 || event.shiftKey || i === 1 || this.tool === "move";
-    const cell = this.panes[i].cellAt(px, py);
-    if (!isPan) return this.beginStroke(cell, px, py);
-    const held = i === 0 && event.button === 0 && this.host && this.tool === "move" && cell >= 0 ? this.thingAt(cell) : null;
-    this.stroke = { kind: held && this.clock === 0 ? "carry" : "pan", i, px, py, cell, held, moved: 0 };
+    pane.canvas.focus({ preventScroll: true });
+    try { pane.canvas.setPointerCapture(pointerId); } catch { /* a pointer of a test */ }
+    const [px, py] = this.#pointOf(event, i);
+    this.pointers.set(pointerId, { px, py, i });
+    app.keys.setCursor(-1);
+    if (this.pointers.size === 2) return this.#beginPinch();
+    const isPan = button === 1 || button === 2 || shiftKey || i === 1 || tool === "move";
+    const cell = pane.cellAt(px, py);
+    if (!isPan) return this.#beginStroke(cell, px, py);
+    const canHold = i === 0 && button === 0 && app.host && tool === "move" && cell >= 0;
+    const held = canHold ? this.#thingAt(cell) : null;
+    this.stroke = { kind: held && app.clock.at === 0 ? "carry" : "pan", px, py, cell, held, moved: 0 };
   }
 
-  pointerMove(event, i) {
-    const [px, py] = this.place(event, i), known = this.pointers.get(event.pointerId);
-    if (!known) return this.readCell(i, this.panes[i].cellAt(px, py));
-    const [dx, dy] = [px - known.px, py - known.py];
-    Object.assign(known, { px, py });
-    if (this.pinch) return this.movePinch(i);
-    const { stroke } = this;
+  #move(event, i) {
+    const { app, stroke } = this, pane = app.panes[i];
+    const [px, py] = this.#pointOf(event, i), before = this.pointers.get(event.pointerId);
+    if (!before) return app.readout.show(i, pane.cellAt(px, py));
+    const dx = px - before.px, dy = py - before.py;
+    Object.assign(before, { px, py });
+    if (this.pinch) return this.#movePinch(i);
     if (!stroke) return;
-    const cell = this.panes[i].cellAt(px, py);
-    if (stroke.kind === "pan") {
-      stroke.moved += Math.abs(dx) + Math.abs(dy);
-      if (stroke.moved > 6) {
-        this.panes[i].pan(dx, dy);
-        this.invalidate();
-      }
-    } else if (stroke.kind === "carry") stroke.target = cell;
-    else {
-      // Every cell between two reports of a fast hand.
-      const [lx, ly] = stroke.last, pieces = Math.max(1, Math.ceil(Math.hypot(px - lx, py - ly) / Math.max(2, this.panes[0].view.scale / 3)));
-      for (let k = 1; k <= pieces; k++) this.apply(this.panes[0].cellAt(lx + ((px - lx) * k) / pieces, ly + ((py - ly) * k) / pieces));
-      stroke.last = [px, py];
-      this.showStroke();
-    }
-    this.readCell(i, cell);
+    const cell = pane.cellAt(px, py);
+    if (stroke.kind === "carry") stroke.target = cell;
+    else if (stroke.kind === "pan") this.#pan(pane, dx, dy);
+    else this.#paintTo(px, py);
+    app.readout.show(i, cell);
   }
 
-  pointerUp(event, i) {
+  #up(event, i) {
+    const { stroke } = this;
     this.pointers.delete(event.pointerId);
     if (this.pinch) {
       if (!this.pointers.size) this.pinch = null;
       return;
     }
-    const { stroke } = this;
     this.stroke = null;
     if (!stroke) return;
-    if (stroke.kind === "carry") {
-      if (stroke.target !== undefined && stroke.target >= 0 && stroke.target !== stroke.cell) this.carry(stroke);
-      else if (stroke.held.robot !== undefined) this.followRobot(stroke.held.robot);
-    } else if (stroke.kind === "pan") {
-      if (stroke.moved <= 6) this.pick(i, stroke);
-    } else this.endStroke(stroke);
+    if (stroke.kind === "carry") this.#drop(stroke);
+    else if (stroke.kind !== "pan") this.#endStroke(stroke);
+    else if (stroke.moved <= SLACK) this.pick(i, stroke);
   }
 
-  beginPinch(i) {
-    if (this.stroke && this.stroke.kind !== "pan") this.refreshPanes();
-    this.stroke = null;
+  // ---- moving the picture
+
+  #pan(pane, dx, dy) {
+    this.stroke.moved += Math.abs(dx) + Math.abs(dy);
+    if (this.stroke.moved <= SLACK) return;
+    pane.pan(dx, dy);
+    this.app.stage.invalidate();
+  }
+
+  #between() {
     const [a, b] = [...this.pointers.values()];
-    this.pinch = { length: Math.hypot(a.px - b.px, a.py - b.py), x: (a.px + b.px) / 2, y: (a.py + b.py) / 2 };
+    return { length: Math.hypot(a.px - b.px, a.py - b.py), x: (a.px + b.px) / 2, y: (a.py + b.py) / 2 };
   }
 
-  movePinch(i) {
+  #beginPinch() {
+    if (this.stroke && this.stroke.kind !== "pan") this.app.stage.show();
+    this.stroke = null;
+    this.pinch = this.#between();
+  }
+
+  #movePinch(i) {
     if (this.pointers.size < 2) return;
-    const [a, b] = [...this.pointers.values()], { pinch } = this;
-    const length = Math.hypot(a.px - b.px, a.py - b.py), x = (a.px + b.px) / 2, y = (a.py + b.py) / 2;
-    this.panes[i].pan(x - pinch.x, y - pinch.y);
-    this.panes[i].zoom(length / Math.max(1, pinch.length), x, y);
-    Object.assign(pinch, { length, x, y });
-    this.invalidate();
+    const { length, x, y } = this.#between(), { pinch } = this, pane = this.app.panes[i];
+    pane.pan(x - pinch.x, y - pinch.y);
+    pane.zoom(length / Math.max(1, pinch.length), x, y);
+    this.pinch = { length, x, y };
+    this.app.stage.invalidate();
   }
 
-  wheel(event, i) {
+  #wheel(event, i) {
     event.preventDefault();
-    const [px, py] = this.place(event, i);
-    this.panes[i].zoom(Math.exp(-Math.max(-120, Math.min(120, event.deltaY)) * 0.0025), px, py);
-    this.invalidate();
+    const [px, py] = this.#pointOf(event, i), by = Math.max(-120, Math.min(120, event.deltaY));
+    this.app.panes[i].zoom(Math.exp(-by * 0.0025), px, py);
+    this.app.stage.invalidate();
   }
 
-  zoom(factor) {
-    for (const pane of this.panes) if (pane.doc) pane.zoom(factor, pane.canvas.width / 2, pane.canvas.height / 2);
-    this.invalidate();
-  }
-
-  fit() {
-    for (const pane of this.panes) pane.fit();
-    this.invalidate();
-  }
+  // ---- robots and destinations
 
   // Click: the robot nearest to the pointer, if it is near.
   pick(i, { px, py }) {
-    const pane = this.panes[i], { robots, view } = pane;
+    const { robots, view } = this.app.panes[i], { fraction } = this.app;
     if (!robots) return;
-    const { fraction } = this, reach = Math.max(10, view.scale * 0.6);
+    const { x0, y0, x1, y1, state } = robots, reach = Math.max(10, view.scale * 0.6);
     let best = -1, least = reach * reach;
     for (let r = 0; r < robots.count; r++) {
-      if (robots.state[r] === HIDDEN) continue;
-      const dx = (robots.x0[r] + (robots.x1[r] - robots.x0[r]) * fraction) * view.scale + view.left - px;
-      const dy = (robots.y0[r] + (robots.y1[r] - robots.y0[r]) * fraction) * view.scale + view.top - py;
+      if (state[r] === HIDDEN) continue;
+      const dx = (x0[r] + (x1[r] - x0[r]) * fraction) * view.scale + view.left - px;
+      const dy = (y0[r] + (y1[r] - y0[r]) * fraction) * view.scale + view.top - py;
       if (dx * dx + dy * dy < least) [best, least] = [r, dx * dx + dy * dy];
     }
-    this.followRobot(best);
+    this.app.followed.follow(best);
   }
 
-  thingAt(cell) {
-    const robot = this.doc.robots.indexOf(cell);
+  #thingAt(cell) {
+    const { robots, destinations } = this.app.doc, robot = robots.indexOf(cell);
     if (robot >= 0) return { robot };
-    return this.doc.destinations.includes(cell) ? { destination: cell } : null;
+    return destinations.includes(cell) ? { destination: cell } : null;
   }
 
-  carry({ held, target, cell }) {
-    const { doc } = this;
-    if (this.live) return held.robot === undefined ? this.tell("move", cell, { to: target }) : this.say("Robots that run cannot be carried; take one away with Erase, and let another join.", true);
-    if (doc.barriers[target] || doc.robots.includes(target) || doc.destinations.includes(target)) return this.say("That cell is taken.", true);
-    if (held.robot !== undefined) this.change({ robots: doc.robots.map((other, r) => (r === held.robot ? target : other)), header: { ...doc.header, seed: null } });
-    else this.change({ destinations: doc.destinations.map((other) => (other === cell ? target : other)) });
+  #drop({ held, target, cell }) {
+    if (target !== undefined && target >= 0 && target !== cell) this.#carry(held, cell, target);
+    else if (held.robot !== undefined) this.app.followed.follow(held.robot);
   }
 
-  beginStroke(cell, px, py) {
-    this.stroke = { kind: this.tool, last: [px, py], touched: new Set(), isRemoving: false };
-    if (cell >= 0) {
-      if (this.tool === "robot") this.stroke.isRemoving = this.doc.robots.includes(cell);
-      if (this.tool === "destination") this.stroke.isRemoving = this.doc.destinations.includes(cell);
+  #carry({ robot }, from, to) {
+    const { app } = this, { doc, live } = app, { barriers, robots, destinations } = doc;
+    if (live && robot === undefined) return live.tell("move", from, { to });
+    if (live) return app.say(NOT_CARRIED, true);
+    if (barriers[to] || robots.includes(to) || destinations.includes(to)) return app.say("That cell is taken.", true);
+    if (robot === undefined) app.change({ destinations: destinations.map((other) => (other === from ? to : other)) });
+    else {
+      const moved = robots.map((other, r) => (r === robot ? to : other));
+      app.change({ robots: moved, header: { ...doc.header, seed: null } });
     }
-    this.apply(cell);
-    this.showStroke();
   }
 
-  // The cells of the brush around a cell: those whose centres lie within its half width.
-  brushed(cell) {
-    const width = this.tool === "wall" || this.tool === "erase" ? Number(this.brush.value) : 1;
-    if (width === 1) return [cell];
-    const { doc } = this, [cx, cy] = centreOf(doc, cell), x = cell % doc.width, y = Math.floor(cell / doc.width), reach = 2 * width, cells = [];
-    for (let j = Math.max(0, y - width); j <= Math.min(doc.height - 1, y + width); j++) {
-      for (let i = Math.max(0, x - reach); i <= Math.min(doc.width - 1, x + reach); i++) {
-        const [px, py] = shapeOf(doc).centre(i, j);
-        if (Math.hypot(px - cx, py - cy) < width / 2) cells.push(j * doc.width + i);
-      }
+  // ---- painting
+
+  // Use the tool on one cell.
+  tap(cell, px, py) {
+    this.#beginStroke(cell, px, py);
+    const { stroke } = this;
+    this.stroke = null;
+    this.#endStroke(stroke);
+  }
+
+  #beginStroke(cell, px, py) {
+    this.stroke = new Stroke(this.app.tools.chosen, this.app.doc, cell, [px, py]);
+    this.#touch(cell);
+    this.#showStroke();
+  }
+
+  // Every cell between two reports of a fast hand.
+  #paintTo(px, py) {
+    const [pane] = this.app.panes, [lx, ly] = this.stroke.last, length = Math.hypot(px - lx, py - ly);
+    const pieces = Math.max(1, Math.ceil(length / Math.max(2, pane.view.scale / 3)));
+    for (let k = 1; k <= pieces; k++) {
+      this.#touch(pane.cellAt(lx + ((px - lx) * k) / pieces, ly + ((py - ly) * k) / pieces));
     }
-    return cells;
+    this.stroke.moveTo([px, py]);
+    this.#showStroke();
   }
 
-  apply(cell) {
+  #touch(cell) {
+    const { doc, live, tools } = this.app, { touched } = this.stroke;
     if (cell < 0) return;
-    for (const one of this.brushed(cell)) {
-      if (this.live && !this.stroke.touched.has(one)) this.touch(one);
-      this.stroke.touched.add(one);
+    for (const one of brushed(doc, cell, tools.width)) {
+      if (live && !touched.has(one)) live.touch(one, tools.chosen);
+      touched.add(one);
     }
   }
 
-  // What the document is after a stroke.
-  stroked({ kind, touched, isRemoving }) {
-    const { doc } = this, changed = { ...doc };
-    if (kind === "wall" || kind === "erase") {
-      changed.barriers = doc.barriers.slice();
-      for (const cell of touched) changed.barriers[cell] = kind === "wall" ? 1 : 0;
-    }
-    const isKept = (cells) => !cells.some((cell) => touched.has(cell));
-    if (kind === "wall" || kind === "erase" || isRemoving) {
-      if (kind !== "destination" && !isKept(doc.robots)) changed.robots = without(doc.robots, touched);
-      if (kind !== "robot" && !isKept(doc.destinations)) changed.destinations = without(doc.destinations, touched);
-    } else {
-      const name = kind === "robot" ? "robots" : "destinations", there = new Set(doc[name]), other = new Set(kind === "robot" ? doc.destinations : doc.robots);
-      changed[name] = plus(doc[name], [...touched].filter((cell) => !doc.barriers[cell] && !there.has(cell) && !other.has(cell)));
-    }
-    if (changed.robots !== doc.robots) changed.header = { ...doc.header, seed: null };
-    return changed;
+  #showStroke() {
+    const { live, doc, panes: [pane], stage } = this.app;
+    if (live) return;
+    const after = this.stroke.on(doc);
+    pane.show(after, after.robots === doc.robots ? pane.robots : new Still(after, null));
+    stage.invalidate();
   }
 
-  showStroke() {
-    if (this.live) return;
-    const doc = this.stroked(this.stroke);
-    this.panes[0].show(doc, doc.robots === this.doc.robots ? this.panes[0].robots : new Still(doc, null));
-    this.invalidate();
-  }
-
-  endStroke(stroke) {
-    if (this.live) return;
-    const doc = this.stroked(stroke);
-    const isSame = ["barriers", "robots", "destinations"].every((name) => doc[name] === this.doc[name] || (doc[name].length === this.doc[name].length && doc[name].every((value, k) => value === this.doc[name][k])));
-    if (isSame) {
-      this.refresh();
-      const [cell] = stroke.touched;
-      if (cell !== undefined && this.doc.barriers[cell] && stroke.kind !== "wall") this.say(`Cell (${cell % this.doc.width}, ${Math.floor(cell / this.doc.width)}) is a barrier: erase it first.`, true);
-      return;
+  #endStroke(stroke) {
+    const { app } = this, { doc } = app;
+    if (app.live) return;
+    const after = stroke.on(doc);
+    if (!isSameDocument(after, doc)) {
+      app.say("");
+      app.clock.rewind();
+      return app.edit(after);
     }
-    this.say("");
-    this.clock = 0;
-    this.edit(doc);
+    app.refresh();
+    const [cell] = stroke.touched, place = `(${cell % doc.width}, ${Math.floor(cell / doc.width)})`;
+    if (cell === undefined || !doc.barriers[cell] || stroke.kind === "wall") return;
+    app.say(`Cell ${place} is a barrier: erase it first.`, true);
   }
-
-  readCell(i, cell) {
-    const pane = this.panes[i], { doc } = pane;
-    if (!doc || cell < 0) {
-      this.readout.textContent = "";
-      this.readout.removeAttribute("data-cell");
-      return;
-    }
-    const words = [`cell (${cell % doc.width}, ${Math.floor(cell / doc.width)})`];
-    if (doc.barriers[cell]) words.push("barrier");
-    else if (doc.destinations.includes(cell)) words.push("destination");
-    else words.push("free");
-    const robot = this.clock === 0 ? doc.robots.indexOf(cell) : -1;
-    if (robot >= 0) words.push(`robot ${robot}`);
-    const distance = i ? this.runs[1]?.playback.distance : this.fields?.distance;
-    if (this.live?.known && !this.live.known[cell]) words.push("not seen");
-    if (distance && !doc.barriers[cell]) words.push(distance[cell] === NOT_REACHED ? "not reached" : `${number(distance[cell])} to go`);
-    const names = this.settings.names?.[`${doc.header.tessellation} ${doc.header.neighbourhood}`];
-    if (!i && this.fields?.directions && names) {
-      const bits = this.fields.directions[cell], row = names[shapeOf(doc).orientation(cell % doc.width, Math.floor(cell / doc.width))];
-      const best = row.filter((_, k) => (bits >> k) & 1);
-      if (best.length) words.push(`best ${best.join(", ")}`);
-    }
-    this.readout.textContent = words.join(" · ");
-    this.readout.dataset.cell = cell;
-  }
-
-  choose(tool) {
-    this.tool = tool;
-    for (const [name, button] of Object.entries(this.toolButtons)) button.setAttribute("aria-pressed", name === tool);
-    for (const canvas of this.canvases) canvas.dataset.tool = tool;
-    this.brush.parentElement.hidden = tool !== "wall" && tool !== "erase";
-    if (this.doc) this.say(TOOLS.find(([name]) => name === tool)[3]);
-  }
-};
+}

@@ -1,11 +1,12 @@
-// Hosts: each answers `ask(header, arrays, {signal, onFrame})` with the last frame of the answer; without one the page only
-// plays what it holds.
+// Hosts: each answers `ask(header, arrays, {signal, onFrame})` with the last frame of the answer; without one the page
+// only plays what it holds.
 
 import { decode, encode } from "./bundles.js";
 
 export class HttpHost {
   async ask(header, arrays, { signal, onFrame } = {}) {
-    const response = await fetch("ask", { method: "POST", body: encode(header, arrays), signal, headers: { "Content-Type": "application/octet-stream" } });
+    const headers = { "Content-Type": "application/octet-stream" };
+    const response = await fetch("ask", { method: "POST", body: encode(header, arrays), signal, headers });
     if (!response.ok) throw new Error(await response.text());
     const reader = response.body.getReader();
     let chunks = [], size = 0;
@@ -63,7 +64,7 @@ export class ModelHost {
   }
 }
 
-export function finished(frame, onFrame) {
+function finished(frame, onFrame) {
   const { kind } = frame.header;
   if (kind === "result") return frame;
   if (kind === "error") throw new Error(frame.header.message);
@@ -71,3 +72,7 @@ export function finished(frame, onFrame) {
   onFrame?.(frame);
   return null;
 }
+
+// What to say of a question that failed.
+export const complaintOf = (error) =>
+  (error instanceof TypeError ? "The server does not answer; is it still running?" : error.message);

@@ -1,81 +1,95 @@
-// Keys: the page without a mouse; light and dark.
+// Keys: the page without a mouse, and the cursor that stands in for it.
 
-import { SPEEDS } from "./panel.js";
-import { TOOLS } from "./hand.js";
+import { showHelp } from "./help.js";
 
-export const withKeys = (Base) => class extends Base {
-  key(event) {
-    if (event.defaultPrevented || this.dialog.open) return;
-    const isText = event.target.matches?.("input:not([type=range]):not([type=checkbox]):not([type=radio]), select, textarea");
-    const key = event.key.length === 1 ? event.key.toLowerCase() : event.key, isCommand = event.ctrlKey || event.metaKey;
-    if (isCommand && this.host && !isText) {
-      const does = { z: () => (event.shiftKey ? this.redo() : this.undo()), y: () => this.redo(), s: () => this.saveDialog(), o: () => this.openDialog() }[key];
-      if (does) {
-        event.preventDefault();
-        does();
-      }
-      return;
-    }
-    if (isText || isCommand || event.altKey) return;
-    if (key === " " && event.target.matches?.("button, summary, input, canvas")) return;
-    const tool = this.host && TOOLS.find(([, , letter]) => letter.toLowerCase() === key);
-    const does = tool ? () => this.choose(tool[0]) : {
-      " ": () => this.togglePlay(), ",": () => this.seek(Math.ceil(this.clock) - 1), ".": () => this.stepForward(), l: () => this.host && (this.live ? this.leaveLive() : this.runLive()),
-      "+": () => this.zoom(1.4), "=": () => this.zoom(1.4), "-": () => this.zoom(1 / 1.4), 0: () => this.fit(), p: () => this.host && this.plan(0),
-      "[": () => this.faster(-1), "]": () => this.faster(1), "?": () => this.helpDialog(), Escape: () => this.cancel(),
-    }[key];
+const TEXTS = "input:not([type=range]):not([type=checkbox]):not([type=radio]), select, textarea";
+const PRESSED = "button, summary, input, canvas"; // what the space bar presses itself
+const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+
+export class Keys {
+  constructor(app) {
+    this.app = app;
+    app.panes.forEach(({ canvas }, i) => {
+      canvas.addEventListener("keydown", (event) => this.#onCanvas(event, i));
+      canvas.addEventListener("blur", () => this.setCursor(-1));
+    });
+  }
+
+  // Hear all of the page; in a notebook only what is pressed in the viewer.
+  listen() {
+    const { shell, settings, listeners: { signal } } = this.app;
+    shell.addEventListener("keydown", (event) => this.#onPage(event));
+    if (settings.host === "notebook") return;
+    const outside = (event) => { if (!shell.contains(event.target)) this.#onPage(event); };
+    document.addEventListener("keydown", outside, { signal });
+  }
+
+  #onPage(event) {
+    const { app } = this, { target, altKey } = event;
+    if (event.defaultPrevented || app.dialog.isOpen) return;
+    const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
+    const isText = target.matches?.(TEXTS), isCommand = event.ctrlKey || event.metaKey;
+    let does;
+    if (isCommand) does = app.host && !isText ? this.#command(key, event.shiftKey) : undefined;
+    else if (!isText && !altKey && !(key === " " && target.matches?.(PRESSED))) does = this.#action(key);
     if (!does) return;
     event.preventDefault();
     does();
   }
 
-  faster(by) { this.setSpeed(SPEEDS[Math.max(0, Math.min(SPEEDS.length - 1, SPEEDS.indexOf(this.stepsPerSecond) + by))]); }
+  #command(key, hasShift) {
+    const { app } = this;
+    return {
+      z: () => (hasShift ? app.redo() : app.undo()), y: () => app.redo(),
+      s: () => app.saving.open(), o: () => app.opening.open(),
+    }[key];
+  }
 
-  canvasKey(event, i) {
-    const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
-    const pane = this.panes[i], { doc } = pane;
+  #action(key) {
+    const { app } = this, { clock, stage, host } = app, tool = host && app.tools.ofKey(key);
+    if (tool) return () => app.tools.choose(tool);
+    return {
+      " ": () => clock.toggle(), ",": () => clock.back(), ".": () => clock.forth(),
+      "[": () => clock.faster(-1), "]": () => clock.faster(1),
+      "+": () => stage.zoom(1.4), "=": () => stage.zoom(1.4), "-": () => stage.zoom(1 / 1.4), 0: () => stage.fit(),
+      p: () => host && app.planning.plan(0), l: () => host && app.livePanel.toggle(),
+      "?": () => showHelp(app.dialog), Escape: () => app.questions.cancel(),
+    }[key];
+  }
+
+  #onCanvas(event, i) {
+    const { app } = this, pane = app.panes[i], { cursor } = pane, step = ARROWS[event.key];
     if (step) {
       event.preventDefault();
-      const by = event.shiftKey ? 10 : 1;
-      const at = pane.cursor >= 0 ? pane.cursor : doc.width * Math.floor(doc.height / 2) + Math.floor(doc.width / 2);
-      const clamp = (value, count) => Math.max(0, Math.min(count - 1, value));
-      const x = clamp((at % doc.width) + by * step[0], doc.width), y = clamp(Math.floor(at / doc.width) + by * step[1], doc.height);
-      return this.setCursor(y * doc.width + x, i);
+      return this.setCursor(this.#moved(pane, step, event.shiftKey ? 10 : 1), i);
     }
-    if (event.key === "Enter" || event.key === " ") {
-      if (pane.cursor < 0) return event.key === " " ? (event.preventDefault(), this.togglePlay()) : undefined;
-      event.preventDefault();
-      const [px, py] = pane.pointOf(pane.cursor), { cursor } = pane;
-      if (i || this.tool === "move") return this.pick(i, { px, py });
-      this.beginStroke(cursor, px, py);
-      const { stroke } = this;
-      this.stroke = null;
-      this.endStroke(stroke);
-      this.setCursor(cursor, i);
-    }
+    if (event.key !== "Enter" && event.key !== " ") return;
+    if (cursor < 0 && event.key === "Enter") return;
+    event.preventDefault();
+    if (cursor < 0) return app.clock.toggle();
+    const [px, py] = pane.pointOf(cursor);
+    if (i || app.tools.chosen === "move") return app.hand.pick(i, { px, py });
+    app.hand.tap(cursor, px, py);
+    this.setCursor(cursor, i);
   }
 
+  // The cell so many steps from the cursor, or from the middle if there is none.
+  #moved({ doc, cursor }, [dx, dy], by) {
+    const at = cursor >= 0 ? cursor : doc.width * Math.floor(doc.height / 2) + Math.floor(doc.width / 2);
+    const clamp = (value, count) => Math.max(0, Math.min(count - 1, value));
+    const x = clamp((at % doc.width) + by * dx, doc.width), y = clamp(Math.floor(at / doc.width) + by * dy, doc.height);
+    return y * doc.width + x;
+  }
+
+  // Put the cursor on a cell of a pane, -1 for none.
   setCursor(cell, i = 0) {
-    if (!this.panes || this.panes.every((pane, k) => pane.cursor === (k === i ? cell : -1))) return;
-    this.panes.forEach((pane, k) => { pane.cursor = k === i ? cell : -1; });
+    const { panes, readout, stage } = this.app;
+    if (panes.every((pane, k) => pane.cursor === (k === i ? cell : -1))) return;
+    panes.forEach((pane, k) => pane.take({ cursor: k === i ? cell : -1 }));
     if (cell >= 0) {
-      this.panes[i].reveal(cell);
-      this.readCell(i, cell);
+      panes[i].reveal(cell);
+      readout.show(i, cell);
     }
-    this.invalidate();
+    stage.invalidate();
   }
-
-  isDark() { return this.theme === "dark" || (this.theme === "auto" && matchMedia("(prefers-color-scheme: dark)").matches); }
-
-  nextTheme() {
-    this.theme = this.isDark() ? "light" : "dark";
-    try { localStorage.setItem("trihex-theme", this.theme); } catch { /* a page without storage */ }
-    this.applyTheme();
-  }
-
-  applyTheme() {
-    this.shell.dataset.theme = this.isDark() ? "dark" : "light";
-    this.themeButton.textContent = this.isDark() ? "Light" : "Dark";
-    this.refreshPanes();
-  }
-};
+}

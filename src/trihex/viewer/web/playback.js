@@ -3,9 +3,11 @@
 import { R3 } from "./shapes.js";
 import { NOT_REACHED, centreOf } from "./documents.js";
 
-export const WAIT = 255, JUMP = 254;
+const WAIT = 255, JUMP = 254;
 
 export const HIDDEN = 0, MOVING = 1, WAITING = 2, FINAL = 3, STRANDED = 4; // and 5, late, in live runs
+
+const CURVES = ["moving", "waiting", "arrived", "spent", "least_total"]; // by step
 
 // Where the robots of a document stand before there is a plan.
 export class Still {
@@ -36,11 +38,12 @@ export class Playback {
     this.jumpAt = arrays.jump_at;
     this.jumpTo = arrays.jump_to;
     this.curves = {};
-    for (const name of ["moving", "waiting", "arrived", "spent", "least_total"]) this.curves[name] = arrays[`${name}_by_step`];
+    for (const name of CURVES) this.curves[name] = arrays[`${name}_by_step`];
     this.distance = arrays.distance;
     const { origin, pitch, offsets } = header.layout;
     this.offsets = offsets.map((row) => Int32Array.from(row));
-    const start = Int32Array.from(doc.robots, (cell) => origin + Math.floor(cell / doc.width) * pitch + (cell % doc.width));
+    const siteOf = (cell) => origin + Math.floor(cell / doc.width) * pitch + (cell % doc.width);
+    const start = Int32Array.from(doc.robots, siteOf);
     // Every so many steps one is kept: as many as fit into some 64 MB.
     this.every = Math.max(32, Math.ceil((this.steps * this.count) / 2 ** 24));
     this.kept = [start];
@@ -68,7 +71,8 @@ export class Playback {
     while (this.step < step) {
       [this.site, this.next] = [this.next, this.site];
       this.step++;
-      if (this.step % this.every === 0 && this.kept.length === this.step / this.every) this.kept.push(this.site.slice());
+      const isNew = this.kept.length === this.step / this.every;
+      if (this.step % this.every === 0 && isNew) this.kept.push(this.site.slice());
       if (this.step < step) this.#advance(this.site, this.step, this.next);
     }
     if (isNext) [this.x0, this.y0, this.x1, this.y1] = [this.x1, this.y1, this.x0, this.y0];

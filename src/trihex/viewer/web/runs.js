@@ -8,5 +8,8 @@ export function runOf({ header, arrays }, doc = null) {
   return { ...header, playback: new Playback({ header, arrays }, place), doc: place };
 }
 
-export const sameField = (one, other) => one === other || (one.barriers === other.barriers && one.destinations === other.destinations &&
-  ["tessellation", "neighbourhood", "costs", "corners"].every((name) => one.header[name] === other.header[name]));
+const FIELD_RULES = ["tessellation", "neighbourhood", "costs", "corners"];
+
+// Whether the field of two documents is the same.
+export const sameField = (one, other) => one === other || (one.barriers === other.barriers &&
+  one.destinations === other.destinations && FIELD_RULES.every((name) => one.header[name] === other.header[name]));

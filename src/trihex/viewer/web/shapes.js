@@ -66,4 +66,4 @@ export const SHAPES = {
     },
   },
 };
-export const inRange = (i, count) => (i >= 0 && i < count ? i : -1);
+const inRange = (i, count) => (i >= 0 && i < count ? i : -1);

@@ -13,7 +13,8 @@ async function unpacked(text) {
 async function start(root) {
   const settings = JSON.parse(document.getElementById("trihex-settings").textContent);
   const content = document.getElementById("trihex-content").textContent.trim();
-  root.app = new App(root, settings, settings.host === "server" ? new HttpHost() : null, content ? await unpacked(content) : null);
+  const host = settings.host === "server" ? new HttpHost() : null;
+  root.app = new App(root, settings, host, content ? await unpacked(content) : null);
 }
 
 const root = typeof document === "undefined" ? null : document.getElementById("trihex");

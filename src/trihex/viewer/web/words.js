@@ -1,7 +1,9 @@
 // Words: elements, numbers and names as people read them.
 
+const IN_SVG = ["svg", "polyline", "line", "path"];
+
 export function h(tag, properties = {}, ...children) {
-  const element = tag === "svg" || tag === "polyline" || tag === "line" || tag === "path"
+  const element = IN_SVG.includes(tag)
     ? document.createElementNS("http://www.w3.org/2000/svg", tag) : document.createElement(tag);
   for (const [name, value] of Object.entries(properties)) {
     if (value === undefined || value === false) continue;
@@ -13,16 +15,18 @@ export function h(tag, properties = {}, ...children) {
   return element;
 }
 
-export const EXPORT_WORDS = {
-  scenario: "Scenario: area, destinations, robots, rules", area: "Area: barriers only", field: "Field: the distance of each cell", starts: "Starts: cells of the robots",
-  plan: "Plan: what each robot does at each step", page: "Page: one HTML file that plays anywhere, to share; both plans if there are two",
-  movie: "Movie", picture: "Picture", waypoints: "Waypoints in metres", summary: "Summary: the numbers of the plan",
-  run: "Live run: all that happened, for trihex run --resume", run_movie: "Movie of the live run", run_picture: "Picture of the live run: what was seen when",
-};
-export const number = (value) => (value === null || value === undefined ? "–" : Math.round(value).toLocaleString("en").replace(/,/g, " "));
-export const percent = (value) => (value === null || value === undefined ? "–" : `${(100 * value).toFixed(value < 0.1 ? 2 : 1)} %`);
+export const number = (value) =>
+  (value === null || value === undefined ? "–" : Math.round(value).toLocaleString("en").replace(/,/g, " "));
+export const percent = (value) =>
+  (value === null || value === undefined ? "–" : `${(100 * value).toFixed(value < 0.1 ? 2 : 1)} %`);
 export const plural = (count, one) => `${number(count)} ${one}${count === 1 ? "" : "s"}`;
 export const title = (word) => word[0].toUpperCase() + word.slice(1);
 
-export const gapWords = (summary) => (summary.optimal || summary.gap === 0 ? "proven optimal" : summary.gap === null ? "gap unknown" : `${summary.lower_bound_name === "optimum" ? "" : "at most "}${percent(summary.gap)} above the optimum`);
-export const wholeOf = (input) => (input.value === "" ? null : Math.max(Number(input.min), Math.round(Number(input.value))));
+export function gapWords({ optimal, gap, lower_bound_name: bound }) {
+  if (optimal || gap === 0) return "proven optimal";
+  if (gap === null) return "gap unknown";
+  return `${bound === "optimum" ? "" : "at most "}${percent(gap)} above the optimum`;
+}
+
+export const wholeOf = (input) =>
+  (input.value === "" ? null : Math.max(Number(input.min), Math.round(Number(input.value))));

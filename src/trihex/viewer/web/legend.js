@@ -1,0 +1,46 @@
+// Legend: what the colours of the picture mean.
+
+import { h, number } from "./words.js";
+import { css } from "./colours.js";
+import { STRANDED } from "./playback.js";
+
+export class Legend {
+  constructor(app) {
+    this.app = app;
+    this.element = h("div", { class: "legend", "aria-label": "Legend" });
+  }
+
+  show() {
+    const palette = this.app.panes[0].palette();
+    const entries = this.#entries().map(([name, words, kind = "disc"]) => {
+      const mark = h("i", { class: kind });
+      mark.style.background = css(palette[name]);
+      return h("span", {}, mark, words);
+    });
+    this.element.replaceChildren(...entries, ...this.#ramp(palette));
+  }
+
+  #entries() {
+    const { live, runs: [run], doc, field, stage } = this.app, { values } = this.app.panes[0];
+    const entries = [["barrier", "barrier", "cell"], ["destination", "destination"]];
+    if (live?.known) entries.push(["fog", "not seen", "cell"], ["fog_barrier", "barrier not seen", "cell"]);
+    if (live) {
+      entries.push(["moving", "moving"], ["waiting", "waiting"]);
+      if (live.delays) entries.push(["late", "late"]);
+      if (live.last.cut_off) entries.push(["stranded", "cut off"]);
+    } else if (run) entries.push(["moving", "moving"], ["waiting", "waiting"], ["final", "arriving"]);
+    else if (doc.robots.length) entries.push(["moving", "robot"]);
+    const isStranded = run?.summary.unreachable || stage.still?.robots.state.includes(STRANDED);
+    if (!live && isStranded) entries.push(["stranded", "cannot arrive"]);
+    if (values && field.hasUnreached(values)) entries.push(["unreached", "not reached", "cell"]);
+    return entries;
+  }
+
+  #ramp(palette) {
+    const [pane] = this.app.panes;
+    if (!pane.values) return [];
+    const ramp = h("i", { class: "ramp" }), shades = [0, 64, 128, 192, 255].map((i) => css(palette.distance[i]));
+    ramp.style.background = `linear-gradient(to right, ${shades.join(",")})`;
+    return [h("span", {}, "0 ", ramp, ` ${number(pane.options.most)} to go`)];
+  }
+}

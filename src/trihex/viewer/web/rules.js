@@ -1,0 +1,48 @@
+// Rules: the cells of the document and how robots move on them, as the panel lets them be chosen.
+
+import { h, title, wholeOf } from "./words.js";
+import { grid, inner, numberField, section, select } from "./controls.js";
+
+export class Rules {
+  constructor(app) {
+    this.app = app;
+    const { tessellations, neighbourhoods, costs, corners, crossings } = app.settings;
+    const retile = (name) => (event) => this.#retile({ [name]: event.target.value });
+    const rule = (name) => (event) => this.#rule(name, event.target.value);
+    const whole = (name) => (event) => this.#rule(name, wholeOf(event.target));
+    this.tessellation = h("div", { class: "choice", role: "radiogroup", "aria-label": "Tessellation" },
+      tessellations.map((name) => h("label", {}, h("input", { type: "radio", name: "trihex-tessellation", value: name,
+        onchange: retile("tessellation") }), title(name))));
+    this.fields = { // by their names in the header of a document
+      neighbourhood: select("Neighbours", neighbourhoods, retile("neighbourhood")),
+      costs: select("Costs", costs, retile("costs")),
+      corners: select("Corners", corners, rule("corners")),
+      crossing: select("Crossing", crossings, rule("crossing")),
+      waiting_cost: numberField("Waiting cost w_t", "",
+        { min: 0, placeholder: "one edge", onchange: whole("waiting_cost") }),
+      destination_capacity: numberField("Arrivals per step and destination", "",
+        { min: 1, placeholder: "any", onchange: whole("destination_capacity") }),
+    };
+    this.element = section("Cells and rules", this.tessellation, inner("Rules", grid(Object.values(this.fields))));
+  }
+
+  #rule(name, value) { this.app.change({ header: { ...this.app.doc.header, [name]: value } }); }
+
+  #retile(changes) {
+    const { app } = this, header = { ...app.doc.header, ...changes };
+    if (header.frame && (changes.tessellation || changes.neighbourhood)) {
+      app.refresh();
+      return app.say("This area lies in the world in metres: open its file again with other cells.", true);
+    }
+    // A cost of waiting in the old unit would mean something else.
+    if (changes.costs) header.waiting_cost = null;
+    app.change({ header });
+  }
+
+  show() {
+    const { header } = this.app.doc;
+    const radios = this.tessellation.querySelectorAll("input");
+    for (const radio of radios) radio.checked = radio.value === header.tessellation;
+    for (const [name, field] of Object.entries(this.fields)) field.lastChild.value = header[name] ?? "";
+  }
+}

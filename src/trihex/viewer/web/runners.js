@@ -1,0 +1,40 @@
+// Runners: the robots of a live run, from where they were to where they are.
+
+import { centreOf } from "./documents.js";
+import { FINAL, HIDDEN } from "./playback.js";
+
+export class Runners {
+  constructor() {
+    this.count = 0;
+    this.steps = 0;
+    for (const name of ["x0", "y0", "x1", "y1"]) this[name] = new Float32Array(0);
+    this.state = new Uint8Array(0);
+    this.cells = new Int32Array(0);
+  }
+
+  // Take over where they are: after a step they come from where they were, else those that joined stand still.
+  move(doc, cells, state, isStep) {
+    const { count, x0, y0, x1, y1 } = this, n = cells.length;
+    const x = new Float32Array(n), y = new Float32Array(n);
+    for (let r = 0; r < n; r++) [x[r], y[r]] = centreOf(doc, cells[r]);
+    const from = (old, to) => {
+      const all = to.slice();
+      all.set(old.subarray(0, Math.min(count, n)));
+      return all;
+    };
+    const [beforeX, beforeY] = isStep || !count ? [x1, y1] : [x0, y0];
+    Object.assign(this, { count: n, x0: from(beforeX, x), y0: from(beforeY, y), x1: x, y1: y, cells, state });
+  }
+
+  // Those that have come to a destination are gone.
+  settle() {
+    for (let r = 0; r < this.count; r++) if (this.state[r] === FINAL) this.state[r] = HIDDEN;
+  }
+
+  // Where robots are, -1 for those that are gone.
+  places() {
+    return this.cells.map((cell, r) => (this.state[r] === HIDDEN || this.state[r] === FINAL ? -1 : cell));
+  }
+
+  seek() {}
+}

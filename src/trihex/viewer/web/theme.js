@@ -1,0 +1,29 @@
+// Theme: light or dark.
+
+import { button } from "./controls.js";
+import { stored } from "./storage.js";
+
+const DARK_QUERY = "(prefers-color-scheme: dark)";
+
+export class Theme {
+  constructor(app) {
+    this.app = app;
+    this.name = stored("trihex-theme") ?? "auto";
+    this.button = button("Theme", () => this.next());
+    matchMedia(DARK_QUERY).addEventListener("change", () => this.apply(), { signal: app.listeners.signal });
+  }
+
+  get isDark() { return this.name === "dark" || (this.name === "auto" && matchMedia(DARK_QUERY).matches); }
+
+  next() {
+    this.name = this.isDark ? "light" : "dark";
+    try { localStorage.setItem("trihex-theme", this.name); } catch { /* a page without storage */ }
+    this.apply();
+  }
+
+  apply() {
+    this.app.shell.dataset.theme = this.isDark ? "dark" : "light";
+    this.button.textContent = this.isDark ? "Light" : "Dark";
+    this.app.stage.show();
+  }
+}
