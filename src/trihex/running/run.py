@@ -138,9 +138,11 @@ class Run(Record):
 
     def _worlds(self, steps: int) -> Iterator[tuple[NDArray[np.bool_], NDArray[np.int64]]]:
         world, due = World(self.scenario), deque(one for one in self.occurrences if one.is_accepted)
-        destinations = world.destination_cells
+        barriers, destinations = world.barriers.copy(), world.destination_cells
         for step in range(1, steps + 1):
+            is_new = due and due[0].event.step <= step
             while due and due[0].event.step <= step:
                 world.change(**due.popleft().changes)
-                destinations = world.destination_cells
-            yield world.barriers, destinations
+            if is_new:
+                barriers, destinations = world.barriers.copy(), world.destination_cells
+            yield barriers, destinations

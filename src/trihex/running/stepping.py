@@ -33,33 +33,30 @@ class Stepper:
 
     def __init__(self, scenario: Scenario, field: LivingField, planner: str, aside: str) -> None:
         from trihex.kernels.signatures import given
-        from trihex.running.kernels import stepping as kernels
+        from trihex.running.kernels.lines import Forest, Terrain, WaitingLines
+        from trihex.running.kernels.stepping import FCOST, GREEDY, StepTraffic
 
         layout, tessellation = scenario.area.layout, scenario.area.tessellation
-        self._kernels = kernels
+        self._looks_at_lines = planner != "greedy"
         self._rules = {
-            "mode": kernels.GREEDY if planner == "greedy" else kernels.FCOST,
+            "mode": FCOST if self._looks_at_lines else GREEDY,
             "aside": ASIDE.index(aside),
             "waiting_cost": int(scenario.waiting_cost),
             "first_vertex_move": scenario.first_vertex_move,
             "entry_limit": scenario.entry_limit,
         }
         self._terrain = given(
-            kernels.Terrain,
+            Terrain,
             distance=field.distance_of_site,
             moves=field.moves,
             offset=layout.offset_of_direction,
             vertex=layout.vertex_of_direction,
             cost=tessellation.cost_of_direction,
         )
-        self._forest = kernels.Forest(1, *self._stamps(3))
-        self._traffic = kernels.StepTraffic(*self._stamps(3))
+        stamps = [np.zeros(layout.size, dtype=np.int32) for _ in range(6)]
+        self._forest, self._traffic = Forest(1, *stamps[:3]), StepTraffic(*stamps[3:])
         nothing = np.empty(0, dtype=np.int64)
-        self._no_lines = kernels.WaitingLines(nothing, nothing, 0)
-
-    def _stamps(self, count: int) -> list[NDArray[np.int32]]:
-        size = self._terrain.distance.size
-        return [np.zeros(size, dtype=np.int32) for _ in range(count)]
+        self._no_lines = WaitingLines(nothing, nothing, 0)
 
     def note_change(self) -> None:
         """Forget what follows from the field: it has changed."""
@@ -72,19 +69,19 @@ class Stepper:
 
     def step(self, number: int, order: NDArray[np.int32], fleet: Fleet) -> NDArray[np.uint8]:
         """Move the robots of `order`, who are asked in this order, and return the action of each of the fleet."""
-        kernels, action = self._kernels, np.full(fleet.size, WAIT, dtype=np.uint8)
-        rules = kernels.StepRules(step=number, **self._rules)
-        lines = self._lines_at(fleet.site[order])
-        walkers = kernels.Walkers(fleet.site, fleet.came_from, action, fleet.occupied)
-        kernels.act(order, rules, self._terrain, self._forest, lines, walkers, self._traffic)
+        from trihex.running.kernels.stepping import StepRules, Walkers, act
+
+        action = np.full(fleet.size, WAIT, dtype=np.uint8)
+        lines = self._lines_at(fleet.site[order]) if self._looks_at_lines else self._no_lines
+        walkers = Walkers(fleet.site, fleet.came_from, action, fleet.occupied)
+        act(order, StepRules(step=number, **self._rules), self._terrain, self._forest, lines, walkers, self._traffic)
         return action
 
     def _lines_at(self, sites: NDArray[np.int32]) -> Any:
-        """Return how long the line is in each slot in which robots stand; none where nobody looks at lines."""
-        kernels = self._kernels
-        if self._rules["mode"] == kernels.GREEDY:
-            return self._no_lines
+        """Return how long the line is in each slot in which robots stand."""
+        from trihex.running.kernels.lines import WaitingLines, find_slots, line_up
+
         slots, slot_of_line, line = np.empty((3, sites.size), dtype=np.int64)
-        kernels.find_slots(sites, self._terrain, self._forest, slots)
+        find_slots(sites, self._terrain, self._forest, slots)
         slots.sort()
-        return kernels.WaitingLines(slot_of_line, line, kernels.line_up(slots, slot_of_line, line))
+        return WaitingLines(slot_of_line, line, line_up(slots, slot_of_line, line))
