@@ -56,8 +56,8 @@ def slot_of(cell, distance, moves):
     return way[-2], len(way) - 1
 
 
-def expected_step(scenario, planner, places, came_from):
-    """Return where all robots go, by the rules of the docs; the slow twin of the kernel, for aside "always"."""
+def expected_step(scenario, planner, aside, places, came_from):
+    """Return where all robots go, by the rules of the docs; the slow twin of the kernel."""
     area, tessellation = scenario.area, scenario.area.tessellation
     distance = th.make_n_scheme(scenario).distance.reshape(-1).tolist()
     moves = {}
@@ -104,7 +104,9 @@ def expected_step(scenario, planner, places, came_from):
             choice = min(options, default=None)
             if choice and choice[0] != min(every) and choice[0] >= min(every) + scenario.waiting_cost:
                 is_back = choice[1] == distance[here] and choice[3] == came_from[robot]
-                choice = choice if choice[1] <= distance[here] and not is_back else None
+                is_dear = choice[0] > min(every) + scenario.waiting_cost
+                stays = {"never": True, "worth": is_dear, "always": is_back}[aside]
+                choice = choice if choice[1] <= distance[here] and not stays else None
         led.add(branch)
         if choice:
             _, _, _, to, _, vertex = choice
@@ -119,15 +121,17 @@ def expected_step(scenario, planner, places, came_from):
     return result
 
 
-@pytest.mark.parametrize("planner", ["greedy", "fcost"])
-def test_every_step_is_as_the_rules_say(planner):
+@pytest.mark.parametrize(
+    ("planner", "aside"), [("greedy", "always"), ("fcost", "always"), ("fcost", "worth"), ("fcost", "never")]
+)
+def test_every_step_is_as_the_rules_say(planner, aside):
     for seed in range(25):
         scenario = random_scenario(seed, sides=(3, 9), most_robots=20)
-        execution = Execution(scenario, planner)
+        execution = Execution(scenario, planner, aside=aside)
         came_from = dict.fromkeys(range(scenario.robot_count))
         for _ in range(4):
             places = {r: c for r, c in enumerate(execution.cell_of_robot.tolist()) if c >= 0}
-            wanted = expected_step(scenario, planner, places, came_from)
+            wanted = expected_step(scenario, planner, aside, places, came_from)
             found = dict(enumerate(execution.step().cell_of_robot.tolist()))
             assert {r: found[r] for r in wanted} == wanted, seed
 

@@ -33,7 +33,7 @@ class Stepper:
 
     def __init__(self, scenario: Scenario, field: LivingField, planner: str, aside: str) -> None:
         from trihex.kernels.signatures import given
-        from trihex.running.kernels.lines import Forest, Terrain, WaitingLines
+        from trihex.running.kernels.lines import Forest, LivingWays, WaitingLines
         from trihex.running.kernels.stepping import FCOST, GREEDY, StepTraffic
 
         layout, tessellation = scenario.area.layout, scenario.area.tessellation
@@ -45,8 +45,8 @@ class Stepper:
             "first_vertex_move": scenario.first_vertex_move,
             "entry_limit": scenario.entry_limit,
         }
-        self._terrain = given(
-            Terrain,
+        self._ways = given(
+            LivingWays,
             distance=field.distance_of_site,
             moves=field.moves,
             offset=layout.offset_of_direction,
@@ -74,7 +74,7 @@ class Stepper:
         action = np.full(fleet.size, WAIT, dtype=np.uint8)
         lines = self._lines_at(fleet.site[order]) if self._looks_at_lines else self._no_lines
         walkers = Walkers(fleet.site, fleet.came_from, action, fleet.occupied)
-        act(order, StepRules(step=number, **self._rules), self._terrain, self._forest, lines, walkers, self._traffic)
+        act(order, StepRules(step=number, **self._rules), self._ways, self._forest, lines, walkers, self._traffic)
         return action
 
     def _lines_at(self, sites: NDArray[np.int32]) -> Any:
@@ -82,6 +82,6 @@ class Stepper:
         from trihex.running.kernels.lines import WaitingLines, find_slots, line_up
 
         slots, slot_of_line, line = np.empty((3, sites.size), dtype=np.int64)
-        find_slots(sites, self._terrain, self._forest, slots)
+        find_slots(sites, self._ways, self._forest, slots)
         slots.sort()
         return WaitingLines(slot_of_line, line, line_up(slots, slot_of_line, line))

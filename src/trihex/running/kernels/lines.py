@@ -29,7 +29,7 @@ from trihex.kernels.signatures import (
 _NONE = np.int64(-1)
 
 
-class Terrain(NamedTuple):
+class LivingWays(NamedTuple):
     """The field, and the ways from site to site."""
 
     distance: IN_I32  # of each site
@@ -57,25 +57,25 @@ class WaitingLines(NamedTuple):
 
 
 @HELPER
-def _next_on_way(site, terrain):
+def _next_on_way(site, ways):
     """Return where the first best direction leads from a site that is reached and no destination."""
-    distance, offset = terrain.distance, terrain.offset
-    for k in range(len(terrain.cost)):
-        if terrain.moves[site] >> k & 1:
+    distance, offset = ways.distance, ways.offset
+    for k in range(len(ways.cost)):
+        if ways.moves[site] >> k & 1:
             target = np.int64(site + offset[site & 1, k])
-            if distance[target] == distance[site] - terrain.cost[k]:
+            if distance[target] == distance[site] - ways.cost[k]:
                 return target
     return _NONE
 
 
 @APART
-def _walk(site, terrain, forest):
+def _walk(site, ways, forest):
     """Find branch and steps of a site and of all on its way."""
     at = site
     walked = np.int64(0)
     while forest.seen[at] != forest.version:
-        parent = _next_on_way(at, terrain)
-        if terrain.distance[parent] == 0:
+        parent = _next_on_way(at, ways)
+        if ways.distance[parent] == 0:
             forest.seen[at] = forest.version
             forest.branch[at] = at
             forest.steps[at] = 1
@@ -90,22 +90,22 @@ def _walk(site, terrain, forest):
         forest.branch[at] = branch
         forest.steps[at] = steps
         steps -= 1
-        at = _next_on_way(at, terrain)
+        at = _next_on_way(at, ways)
 
 
 @HELPER
-def slot_of(site, terrain, forest):
+def slot_of(site, ways, forest):
     """Return the slot of a site that is reached and no destination."""
     if forest.seen[site] != forest.version:
-        _walk(site, terrain, forest)
+        _walk(site, ways, forest)
     return np.int64(forest.branch[site]) << 32 | np.int64(forest.steps[site])
 
 
-@kernel(types.void(IN_I32, declared(Terrain), declared(Forest), OUT_I64))
-def find_slots(sites, terrain, forest, slots):
+@kernel(types.void(IN_I32, declared(LivingWays), declared(Forest), OUT_I64))
+def find_slots(sites, ways, forest, slots):
     """Fill the slots of `sites`."""
     for i in range(len(sites)):
-        slots[i] = slot_of(np.int64(sites[i]), terrain, forest)
+        slots[i] = slot_of(np.int64(sites[i]), ways, forest)
 
 
 @kernel(types.int64(IN_I64, OUT_I64, OUT_I64))

@@ -9,7 +9,7 @@ import numpy as np
 from numba import types
 
 from trihex.kernels.signatures import HELPER, IN_I32, OUT_I32, OUT_U8, declared, kernel
-from trihex.running.kernels.lines import Forest, Terrain, WaitingLines, line_at, slot_of
+from trihex.running.kernels.lines import Forest, LivingWays, WaitingLines, line_at, slot_of
 
 GREEDY, FCOST = 0, 1
 # When a robot that had better wait steps to a place no farther than its own: never, if that costs no more, or always
@@ -58,52 +58,52 @@ class StepChoice(NamedTuple):
 
 
 @HELPER
-def _delay_at(target, own_slot, terrain, forest, lines):
+def _delay_at(target, own_slot, ways, forest, lines):
     """Return how many steps the line ahead costs a robot of a slot that moves to `target`, itself left out."""
-    slot = slot_of(target, terrain, forest) + 1
+    slot = slot_of(target, ways, forest) + 1
     return max(np.int64(0), line_at(slot, lines) - (slot == own_slot))
 
 
 @HELPER
-def _is_barred(here, k, target, rules, terrain, walkers, traffic):
-    """Tell whether a robot is in the way, has passed the same vertex, or is the last that a destination takes."""
+def _is_barred(here, k, target, rules, ways, walkers, traffic):
+    """Tell whether a robot is there, one has passed the same vertex, or enough have entered the destination."""
     if walkers.occupied[target]:
         return True
-    if k >= rules.first_vertex_move and traffic.passed[here + terrain.vertex[here & 1, k]] == rules.step:
+    if k >= rules.first_vertex_move and traffic.passed[here + ways.vertex[here & 1, k]] == rules.step:
         return True
-    if rules.entry_limit == 0 or terrain.distance[target] > 0:
+    if rules.entry_limit == 0 or ways.distance[target] > 0:
         return False
     return traffic.entered_step[target] == rules.step and traffic.entered_count[target] >= rules.entry_limit
 
 
 @HELPER
-def _descend(here, rules, terrain, walkers, traffic):
+def _descend(here, rules, ways, walkers, traffic):
     """Return the first best direction that a robot can take, -1 if there is none."""
-    for k in range(len(terrain.cost)):
-        if terrain.moves[here] >> k & 1:
-            target = here + terrain.offset[here & 1, k]
-            is_best = np.int64(terrain.distance[target]) + terrain.cost[k] == terrain.distance[here]
-            if is_best and not _is_barred(here, k, target, rules, terrain, walkers, traffic):
+    for k in range(len(ways.cost)):
+        if ways.moves[here] >> k & 1:
+            target = here + ways.offset[here & 1, k]
+            is_best = np.int64(ways.distance[target]) + ways.cost[k] == ways.distance[here]
+            if is_best and not _is_barred(here, k, target, rules, ways, walkers, traffic):
                 return np.int64(k)
     return _NONE
 
 
 @HELPER
-def _weigh(here, own_slot, rules, terrain, forest, lines, walkers, traffic):
+def _weigh(here, own_slot, rules, ways, forest, lines, walkers, traffic):
     """Return what a robot that stands `here` can do, and what it would do if all were empty."""
     best, least, nearest = _FAR, _FAR, _FAR
     taken, descent = _NONE, _NONE
-    for k in range(len(terrain.cost)):
-        if not terrain.moves[here] >> k & 1:
+    for k in range(len(ways.cost)):
+        if not ways.moves[here] >> k & 1:
             continue
-        target = here + terrain.offset[here & 1, k]
-        there = np.int64(terrain.distance[target])
-        fcost = there + terrain.cost[k]
-        is_descent = fcost == terrain.distance[here]
+        target = here + ways.offset[here & 1, k]
+        there = np.int64(ways.distance[target])
+        fcost = there + ways.cost[k]
+        is_descent = fcost == ways.distance[here]
         if there > 0:
-            fcost += rules.waiting_cost * _delay_at(target, own_slot, terrain, forest, lines)
+            fcost += rules.waiting_cost * _delay_at(target, own_slot, ways, forest, lines)
         best = min(best, fcost)
-        if _is_barred(here, k, target, rules, terrain, walkers, traffic):
+        if _is_barred(here, k, target, rules, ways, walkers, traffic):
             continue
         if is_descent and descent < 0:
             descent = np.int64(k)
@@ -113,14 +113,14 @@ def _weigh(here, own_slot, rules, terrain, forest, lines, walkers, traffic):
 
 
 @HELPER
-def _steps_aside(here, came_from, choice, rules, terrain):
+def _steps_aside(here, came_from, choice, rules, ways):
     """Tell whether a robot that had better wait makes its move all the same."""
-    if rules.aside == STAY or choice.distance > terrain.distance[here]:
+    if rules.aside == STAY or choice.distance > ways.distance[here]:
         return False
     if rules.aside == WORTH:
         return choice.fcost <= choice.best + rules.waiting_cost
-    target = here + terrain.offset[here & 1, choice.direction]
-    return choice.distance < terrain.distance[here] or target != came_from
+    target = here + ways.offset[here & 1, choice.direction]
+    return choice.distance < ways.distance[here] or target != came_from
 
 
 @HELPER
@@ -136,32 +136,32 @@ def _leads(own_slot, rules, traffic):
 
 
 @HELPER
-def _decide(here, came_from, rules, terrain, forest, lines, walkers, traffic):
+def _decide(here, came_from, rules, ways, forest, lines, walkers, traffic):
     """Return the direction that a robot takes, -1 if it waits."""
     if rules.mode == GREEDY:
-        return _descend(here, rules, terrain, walkers, traffic)
-    own_slot = slot_of(here, terrain, forest)
+        return _descend(here, rules, ways, walkers, traffic)
+    own_slot = slot_of(here, ways, forest)
     is_first = _leads(own_slot, rules, traffic)
-    choice = _weigh(here, own_slot, rules, terrain, forest, lines, walkers, traffic)
+    choice = _weigh(here, own_slot, rules, ways, forest, lines, walkers, traffic)
     if is_first and choice.descent >= 0:
         return choice.descent
     had_better_wait = choice.fcost != choice.best and choice.fcost >= choice.best + rules.waiting_cost
-    if choice.direction >= 0 and had_better_wait and not _steps_aside(here, came_from, choice, rules, terrain):
+    if choice.direction >= 0 and had_better_wait and not _steps_aside(here, came_from, choice, rules, ways):
         return _NONE
     return choice.direction
 
 
 @HELPER
-def _move(robot, here, taken, rules, terrain, walkers, traffic):
+def _move(robot, here, taken, rules, ways, walkers, traffic):
     """Let a robot go, and stamp what it passes and enters."""
-    target = here + terrain.offset[here & 1, taken]
+    target = here + ways.offset[here & 1, taken]
     walkers.action[robot] = taken
     walkers.occupied[here] = 0
     walkers.came_from[robot] = here
     walkers.site[robot] = target
     if taken >= rules.first_vertex_move:
-        traffic.passed[here + terrain.vertex[here & 1, taken]] = rules.step
-    if terrain.distance[target] > 0:
+        traffic.passed[here + ways.vertex[here & 1, taken]] = rules.step
+    if ways.distance[target] > 0:
         walkers.occupied[target] = 1
         return
     entered = traffic.entered_count[target] * (traffic.entered_step[target] == rules.step)
@@ -173,14 +173,14 @@ def _move(robot, here, taken, rules, terrain, walkers, traffic):
     types.void(
         IN_I32,
         declared(StepRules),
-        declared(Terrain),
+        declared(LivingWays),
         declared(Forest),
         declared(WaitingLines),
         declared(Walkers),
         declared(StepTraffic),
     )
 )
-def act(order, rules, terrain, forest, lines, walkers, traffic):
+def act(order, rules, ways, forest, lines, walkers, traffic):
     """Let each robot of `order` move or wait; `walkers` follow.
 
     A robot only ever enters a cell that is empty at that moment, so no two exchange cells; who is asked later may enter
@@ -189,6 +189,6 @@ def act(order, rules, terrain, forest, lines, walkers, traffic):
     for i in range(len(order)):
         robot = order[i]
         here = np.int64(walkers.site[robot])
-        taken = _decide(here, walkers.came_from[robot], rules, terrain, forest, lines, walkers, traffic)
+        taken = _decide(here, walkers.came_from[robot], rules, ways, forest, lines, walkers, traffic)
         if taken >= 0:
-            _move(robot, here, taken, rules, terrain, walkers, traffic)
+            _move(robot, here, taken, rules, ways, walkers, traffic)
