@@ -46,9 +46,10 @@ def main(arguments: list[str]) -> None:
     ):
         trial = Trial(scenario, sensor=sensor, **more)
         numbers = make_run_report(trial.run(), seconds=trial.seconds).as_dict()
-        took, guide = numbers["milliseconds_a_step"], trial.execution.guide
+        took, replanner = numbers["milliseconds_a_step"], trial.execution.replanner
+        plans = replanner.plans if replanner else 0
         print(
             f"{words:28}{numbers['steps']:6}{numbers['total_time']:12}{100 * numbers['price']:+8.1f} %"
-            f"{took['median']:10.2f}{took['worst']:9.0f}{guide.plans if guide else 0:7}{numbers['conflicts']:11}",
+            f"{took['median']:10.2f}{took['worst']:9.0f}{plans:7}{numbers['conflicts']:11}",
             flush=True,
         )

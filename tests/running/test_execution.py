@@ -56,8 +56,8 @@ def slot_of(cell, distance, moves):
     return way[-2], len(way) - 1
 
 
-def expected_step(scenario, planner, places, came_from):
-    """Return where all robots go, by the rules of the docs; the slow twin of the kernel, for aside "always"."""
+def expected_step(scenario, planner, aside, places, came_from):
+    """Return where all robots go, by the rules of the docs; the slow twin of the kernel."""
     area, tessellation = scenario.area, scenario.area.tessellation
     distance = th.make_n_scheme(scenario).distance.reshape(-1).tolist()
     moves = {}
@@ -104,7 +104,9 @@ def expected_step(scenario, planner, places, came_from):
             choice = min(options, default=None)
             if choice and choice[0] != min(every) and choice[0] >= min(every) + scenario.waiting_cost:
                 is_back = choice[1] == distance[here] and choice[3] == came_from[robot]
-                choice = choice if choice[1] <= distance[here] and not is_back else None
+                is_dear = choice[0] > min(every) + scenario.waiting_cost
+                stays = {"never": True, "worth": is_dear, "always": is_back}[aside]
+                choice = choice if choice[1] <= distance[here] and not stays else None
         led.add(branch)
         if choice:
             _, _, _, to, _, vertex = choice
@@ -119,15 +121,17 @@ def expected_step(scenario, planner, places, came_from):
     return result
 
 
-@pytest.mark.parametrize("planner", ["greedy", "fcost"])
-def test_every_step_is_as_the_rules_say(planner):
+@pytest.mark.parametrize(
+    ("planner", "aside"), [("greedy", "always"), ("fcost", "always"), ("fcost", "worth"), ("fcost", "never")]
+)
+def test_every_step_is_as_the_rules_say(planner, aside):
     for seed in range(25):
         scenario = random_scenario(seed, sides=(3, 9), most_robots=20)
-        execution = Execution(scenario, planner)
+        execution = Execution(scenario, planner, aside=aside)
         came_from = dict.fromkeys(range(scenario.robot_count))
         for _ in range(4):
             places = {r: c for r, c in enumerate(execution.cell_of_robot.tolist()) if c >= 0}
-            wanted = expected_step(scenario, planner, places, came_from)
+            wanted = expected_step(scenario, planner, aside, places, came_from)
             found = dict(enumerate(execution.step().cell_of_robot.tolist()))
             assert {r: found[r] for r in wanted} == wanted, seed
 
@@ -250,7 +254,7 @@ def test_plans_are_followed_until_the_world_changes_and_made_anew():
     while not execution.is_over:
         execution.step()
     plan = th.make_plan(scenario)
-    assert execution.guide.plans == 1 and execution.steps_done <= plan.steps
+    assert execution.replanner.plans == 1 and execution.steps_done <= plan.steps
     execution = Execution(scenario, replan=True)
     for _ in range(3):
         execution.step()
@@ -262,7 +266,7 @@ def test_plans_are_followed_until_the_world_changes_and_made_anew():
     execution.leave(int(np.flatnonzero(execution.state_of_robot == GOING)[0]))
     while not execution.is_over:
         execution.step()
-    assert execution.guide.plans == 3 and execution.guide.failures == 0
+    assert execution.replanner.plans == 3 and execution.replanner.failures == 0
 
 
 def test_without_a_plan_in_time_robots_go_on_step_by_step_without_a_gap():
@@ -270,7 +274,7 @@ def test_without_a_plan_in_time_robots_go_on_step_by_step_without_a_gap():
     hurried, stepping = Execution(scenario, replan=True, budget=0.0), Execution(scenario)
     while not stepping.is_over:
         assert cells(hurried.step()) == cells(stepping.step())
-    assert hurried.is_over and hurried.guide.plans == 0 and 1 <= hurried.guide.failures < hurried.steps_done
+    assert hurried.is_over and hurried.replanner.plans == 0 and 1 <= hurried.replanner.failures < hurried.steps_done
 
 
 def test_where_many_are_late_nobody_keeps_to_a_plan():
@@ -280,10 +284,10 @@ def test_where_many_are_late_nobody_keeps_to_a_plan():
     following.step(late), stepping.step(late)
     for _ in range(3):
         assert cells(following.step(late)) == cells(stepping.step(late))
-    assert following.guide.plans == 0
+    assert following.replanner.plans == 0
     while not following.is_over:
         following.step()
-    assert following.guide.plans == 1
+    assert following.replanner.plans == 1
 
 
 def test_the_optimum_is_followed_and_found_again_where_the_world_changes():
@@ -294,7 +298,7 @@ def test_the_optimum_is_followed_and_found_again_where_the_world_changes():
     assert run.total_time == least < th.Trial(scenario, "fcost").run().total_time
     unknowing = th.Trial(scenario, "optimal", sensor=1)
     run = unknowing.run()
-    assert run.arrived.all() and run.total_time >= least and unknowing.execution.guide.plans > 1
+    assert run.arrived.all() and run.total_time >= least and unknowing.execution.replanner.plans > 1
     assert th.audit_run(run).is_clean
 
 
@@ -312,10 +316,10 @@ def test_a_planner_that_does_not_stop_in_time_keeps_nobody_waiting(monkeypatch):
     monkeypatch.setattr("trihex.running.replanning.make_plan", hang)
     for _ in range(8):
         assert cells(hurried.step()) == cells(stepping.step())
-    assert asked == ["fcost"] and hurried.guide.plans == 0  # the next try waits until the first has stopped
+    assert asked == ["fcost"] and hurried.replanner.plans == 0  # the next try waits until the first has stopped
     go_on.set()
-    hurried.guide._attempt.join(60)
-    assert not hurried.guide._attempt.is_alive()
+    hurried.replanner._attempt.join(60)
+    assert not hurried.replanner._attempt.is_alive()
     while not hurried.is_over:
         assert cells(hurried.step()) == cells(stepping.step())
     assert len(asked) > 1

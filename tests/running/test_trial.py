@@ -180,3 +180,12 @@ def test_what_is_caught_up_with_happens_before_the_next_step_and_changes_nothing
     assert audit_run(run).is_clean and not run.last_world[1].size and run.last_world[0][0, 4]
     assert run.state_of_robot.tolist() == [ARRIVED, LEFT, ARRIVED, GOING]
     assert hasty.barriers.sum() == 1 and not hasty.destinations.size and hasty.known.all()
+
+
+def test_the_worlds_of_a_run_are_those_of_its_steps():
+    door = Event(2, "barrier", cell=(3, 0)), Event(4, "clear", cell=(3, 0))
+    events = [*door, Event(4, "move", cell=(6, 0), to=(5, 0))]
+    run = Trial(corridor([(0, 0)]), events=events).run()
+    worlds = [(barriers[0, 3], ends.tolist()) for barriers, ends in list(run.worlds())]
+    assert worlds == [(False, [6]), (True, [6]), (True, [6]), *[(False, [5])] * (run.steps - 3)]
+    assert run.last_world[0].sum() == 0 and run.last_world[1].tolist() == [5]

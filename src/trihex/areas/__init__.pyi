@@ -42,3 +42,6 @@ from .tessellation import (
     Layout as Layout,
     Tessellation as Tessellation,
 )
+from .world import (
+    World as World,
+)

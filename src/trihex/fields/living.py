@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from trihex.areas import CORNERS, Scenario, cells_from
+from trihex.areas import Scenario, World, cells_from
 from trihex.errors import ScenarioError
 from trihex.fields.wave import BUDGET, Wave, renew_directions
 from trihex.kernels.codes import NOT_REACHED
@@ -39,8 +39,8 @@ class Repair(NamedTuple):
 class LivingField:
     """The N-scheme, and if wanted the D-scheme, of a scenario whose barriers and destinations change.
 
-    The only thing in trihex that is changed in place: at 16 million cells, to copy a record takes longer than most
-    repairs by a factor of a hundred. `trihex.fields.schemes.NScheme.updated` is the same as a function of records.
+    Changed in place, unlike records: at 16 million cells, to copy one takes longer than most repairs by a factor of a
+    hundred. `trihex.fields.schemes.NScheme.updated` is the same as a function of records.
 
     Parameters
     ----------
@@ -79,9 +79,7 @@ class LivingField:
         self.distance_of_site = distance_of_site.copy()
         self.directions_of_site = None if directions_of_site is None else directions_of_site.copy()
         self.moves = scenario.moves.copy()
-        self.blocked = self.area.make_blocked()
-        self.destinations = set(scenario.destinations.tolist())
-        self._reverse = self.layout.back_of_direction
+        self.world = World(scenario)
         self._wave = Wave(scenario, self.moves, self.distance_of_site)
 
     @property
@@ -90,9 +88,19 @@ class LivingField:
         return self.layout.cells_of(self.distance_of_site)  # type: ignore[return-value]
 
     @property
+    def blocked(self) -> NDArray[np.bool_]:
+        """Where nobody can stand now: barriers and the padding, for each site."""
+        return self.world.blocked
+
+    @property
     def barriers(self) -> NDArray[np.bool_]:
         """Where barriers are now, a view of shape (height, width)."""
-        return self.layout.cells_of(self.blocked)  # type: ignore[return-value]
+        return self.world.barriers
+
+    @property
+    def destinations(self) -> set[int]:
+        """Numbers of the cells that are destinations now."""
+        return self.world.destinations
 
     def change(
         self, *, blocked: ArrayLike = (), freed: ArrayLike = (), opened: ArrayLike = (), closed: ArrayLike = ()
@@ -113,29 +121,8 @@ class LivingField:
         """
         named = {"blocked": blocked, "freed": freed, "opened": opened, "closed": closed}
         cells = {name: cells_from(self.area, given, name, ScenarioError) for name, given in named.items()}
-        site = {name: self.layout.cell_to_site(own) for name, own in cells.items()}
-        self._check(cells)
-        self.blocked[site["blocked"]] = True
-        self.blocked[site["freed"]] = False
-        self.destinations.difference_update(cells["closed"].tolist())
-        self.destinations.update(cells["opened"].tolist())
-        return self._repair(site)
-
-    def _check(self, cells: dict[str, NDArray[np.int64]]) -> None:
-        closed, opened = set(cells["closed"].tolist()), set(cells["opened"].tolist())
-        remain = (self.destinations - closed) | opened if closed or opened else self.destinations
-        barred, freed = set(cells["blocked"].tolist()), set(cells["freed"].tolist())
-        for one, other, words in (
-            (barred, freed, "be blocked and freed at once"),
-            (opened, closed, "be opened and closed at once"),
-            (barred, remain, "be blocked while it is a destination"),
-        ):
-            both = one & other
-            if both:
-                raise ScenarioError(f"a cell must not {words}: {self.area.name_of_cell(min(both))}")
-        for cell in sorted(opened - freed):
-            if cell in barred or self.barriers.flat[cell]:
-                raise ScenarioError(f"a destination must be a free cell; {self.area.name_of_cell(cell)} is a barrier")
+        self.world.check(**cells)
+        return self._repair(self.world.change(**cells))
 
     def _repair(self, site: dict[str, NDArray[np.int32]]) -> Repair:
         from trihex.fields.kernels import repair as kernels
@@ -151,7 +138,7 @@ class LivingField:
             layout.vertex_of_direction,
             layout.ring_of_vertex,
             tessellation.edge_count,
-            CORNERS.index(self.scenario.corners),
+            self.scenario.corner_rule,
             self.moves,
             around,
         )

@@ -143,7 +143,7 @@ def _judge_meetings(run: Run, step: _Step) -> Iterator[Conflict]:
         if step.here[movers[i]] != step.here[movers[j]]:
             pair = [movers[i], movers[j]]
             yield _conflict(area, "exchange", step, pair, "robots {0} and {1} exchange cells {a} and {b}")
-    if run.scenario.crossing == "forbid":
+    if run.scenario.forbids_crossing:
         passing = np.flatnonzero(step.vertex >= 0)
         for i, j in _pairs(step.vertex[passing]):
             pair = [passing[i], passing[j]]

@@ -114,6 +114,11 @@ class Occurrence:
         """Whether it happened."""
         return not self.refusal
 
+    @property
+    def changes(self) -> dict[str, tuple[int, ...]]:
+        """The cells that it changed, as `World.change` takes them."""
+        return {"blocked": self.blocked, "freed": self.freed, "opened": self.opened, "closed": self.closed}
+
     def __str__(self) -> str:
         return f"{self.event}, refused: {self.refusal}" if self.refusal else str(self.event)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -130,10 +131,24 @@ class Follower:
     order: PassingOrder
     _at: Ints = field(init=False)
     _stack: Ints = field(init=False)
+    _precedence: Any = field(init=False)
 
     def __post_init__(self) -> None:
-        self._at = self.order.first_move[:-1].copy()
+        from trihex.kernels.signatures import given
+        from trihex.running.kernels.passing import Precedence
+
+        order = self.order
+        self._at = order.first_move[:-1].copy()
         self._stack = np.empty_like(self._at)
+        self._precedence = given(
+            Precedence,
+            end=order.first_move[1:],
+            owner=order.robot_of_move,
+            leaves_before=order.leaves_before,
+            enters_after=order.enters_after,
+            vertex_before=order.vertex_before,
+            entry_before=order.entry_before,
+        )
 
     @property
     def is_going(self) -> NDArray[np.bool_]:
@@ -149,23 +164,11 @@ class Follower:
         """Return the action of each robot in this step, and take it as done; `late` robots cannot move."""
         from trihex.running.kernels.passing import choose
 
-        order, is_late = self.order, np.zeros(self._at.size, dtype=bool)
+        is_late, moves = np.zeros(self._at.size, dtype=bool), np.zeros(self._at.size, dtype=bool)
         is_late[np.fromiter(late, dtype=np.int64)] = True
-        moves = np.zeros(self._at.size, dtype=bool)
-        choose(
-            order.first_move[1:],
-            order.robot_of_move,
-            order.leaves_before,
-            order.enters_after,
-            order.vertex_before,
-            order.entry_before,
-            self._at,
-            is_late,
-            self._stack,
-            moves,
-        )
+        choose(self._precedence, self._at, is_late, self._stack, moves)
         action = np.full(self._at.size, WAIT, dtype=np.uint8)
-        action[moves] = order.action_of_move[self._at[moves]]
+        action[moves] = self.order.action_of_move[self._at[moves]]
         self._at += moves
         return action
 
@@ -183,47 +186,58 @@ def make_passing_order(plan: Plan) -> PassingOrder:
     PlanError
         If two robots are in one cell, pass one vertex, or exchange cells in a step, or a robot jumps.
     """
-    from trihex.running.kernels.passing import lay_out
-
     if (plan.actions == JUMP).any():
         raise PlanError("a plan in which robots jump has no order of passing")
-    scenario, layout = plan.scenario, plan.scenario.area.layout
-    is_move = plan.actions != WAIT
-    first_move = np.concatenate([[0], np.cumsum(is_move)])[plan.first_action]
-    moves = int(first_move[-1])
-    step = np.empty(moves, dtype=np.int64)
-    here, there, passed = (np.empty(moves, dtype=np.int32) for _ in range(3))
-    lay_out(
-        layout.cell_to_site(scenario.robots),
-        plan.actions,
-        plan.first_action,
-        layout.offset_of_direction,
-        layout.vertex_of_direction,
-        scenario.area.tessellation.edge_count,
-        first_move,
-        step,
-        here,
-        there,
-        passed,
-    )
-    is_entry = np.isin(there, layout.cell_to_site(scenario.destinations))
+    scenario, capacity = plan.scenario, plan.scenario.destination_capacity
+    first_move, step, there, passed = _moves_of(plan)
+    moves = step.size
+    is_entry = np.isin(there, scenario.area.layout.cell_to_site(scenario.destinations))
     vertex, entry = np.full(moves, -1, dtype=np.int64), np.full(moves, -1, dtype=np.int64)
-    if scenario.crossing == "forbid":
-        _chain(np.flatnonzero(passed >= 0), passed, step, 1, vertex, "pass one lattice vertex")
-    if scenario.destination_capacity is not None:
-        capacity = scenario.destination_capacity
-        _chain(
-            np.flatnonzero(is_entry), there, step, capacity, entry, f"are more than {capacity} to enter a destination"
-        )
+    _chain(np.flatnonzero(passed >= 0), passed, step, 1, vertex, "pass one lattice vertex")
+    if capacity is not None:
+        words = f"are more than {capacity} to enter a destination"
+        _chain(np.flatnonzero(is_entry), there, step, capacity, entry, words)
     leaves = _leaves_before(plan, first_move, step, there, is_entry)
     return PassingOrder(
         plan,
         read_only(first_move),
-        read_only(plan.actions[is_move]),
+        read_only(plan.actions[plan.actions != WAIT]),
         read_only(leaves),
         read_only(vertex),
         read_only(entry),
     )
+
+
+def _moves_of(plan: Plan) -> tuple[Ints, Ints, NDArray[np.int32], NDArray[np.int32]]:
+    """Return the first move of each robot, and of each move its step, the site it leads to, and the vertex it passes.
+
+    The vertex is -1 where the move passes none that others may not pass in the same step.
+    """
+    from trihex.kernels.actions import Actions
+    from trihex.kernels.signatures import given
+    from trihex.running.kernels.passing import PlanMoves, lay_out
+
+    scenario, layout = plan.scenario, plan.scenario.area.layout
+    first_move = np.concatenate([[0], np.cumsum(plan.actions != WAIT)])[plan.first_action]
+    count = int(first_move[-1])
+    actions = given(
+        Actions,
+        action=plan.actions,
+        first=plan.first_action,
+        offset=layout.offset_of_direction,
+        jump_at=np.empty(0, dtype=np.int64),
+        jump_to=np.empty(0, dtype=np.int32),
+    )
+    moves = given(
+        PlanMoves,
+        first=first_move,
+        step=np.empty(count, dtype=np.int64),
+        there=np.empty(count, dtype=np.int32),
+        passed=np.empty(count, dtype=np.int32),
+    )
+    start = layout.cell_to_site(scenario.robots)
+    lay_out(start, actions, layout.vertex_of_direction, scenario.first_vertex_move, moves)
+    return first_move, moves.step, moves.there, moves.passed
 
 
 def _chain(moves: Ints, place: NDArray[np.int32], step: Ints, apart: int, before: Ints, words: str) -> None:

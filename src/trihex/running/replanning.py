@@ -1,4 +1,4 @@
-"""Guide: robots that follow the newest plan of a world that changes, made within a budget of time."""
+"""Replanning: robots that follow the newest plan of a world that changes, made within a budget of time."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ class _Attempt(Thread):
 
 
 @dataclass(eq=False)
-class Guide:
+class Replanner:
     """Plans for the world as it is, and tells in each step who moves, in the order of the plan, whoever is late.
 
     Parameters

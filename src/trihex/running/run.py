@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Scenario
+from trihex.areas import Scenario, World
 from trihex.kernels.codes import LATE, WAIT
 from trihex.record import Record, read_only
 from trihex.running.events import Occurrence
@@ -137,13 +137,12 @@ class Run(Record):
         return deque(self._worlds(self.steps + 1), 1).pop()
 
     def _worlds(self, steps: int) -> Iterator[tuple[NDArray[np.bool_], NDArray[np.int64]]]:
-        barriers, destinations = self.scenario.area.barriers.copy(), set(self.scenario.destinations.tolist())
-        cells, changes, at = np.array(sorted(destinations)), [o for o in self.occurrences if o.is_accepted], 0
+        world, due = World(self.scenario), deque(one for one in self.occurrences if one.is_accepted)
+        barriers, destinations = world.barriers.copy(), world.destination_cells
         for step in range(1, steps + 1):
-            while at < len(changes) and changes[at].event.step <= step:
-                one, at = changes[at], at + 1
-                barriers.flat[list(one.blocked)], barriers.flat[list(one.freed)] = True, False
-                destinations.difference_update(one.closed)
-                destinations.update(one.opened)
-                cells = np.array(sorted(destinations), dtype=np.int64)
-            yield barriers, cells
+            is_new = due and due[0].event.step <= step
+            while due and due[0].event.step <= step:
+                world.change(**due.popleft().changes)
+            if is_new:
+                barriers, destinations = world.barriers.copy(), world.destination_cells
+            yield barriers, destinations

@@ -9,17 +9,20 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Area, Scenario
+from trihex.areas import Area, Scenario, World
 from trihex.errors import ExecutionError, ScenarioError
+from trihex.fields import Repair
 from trihex.kernels.codes import LATE, WAIT
+from trihex.running.changes import cell_at, changes_of
 from trihex.running.events import Event, Occurrence
 from trihex.running.execution import Execution
+from trihex.running.knowledge import Knowledge
+from trihex.running.log import Log
 from trihex.running.run import GOING, Run
 from trihex.running.sensing import Sensor
 
 _STEPS_MOST = 1_000_000
 _NONE = np.empty(0, dtype=np.int32)
-_JOINED, _ENDED, _LATE_UNTIL, _CUT_OFF = range(4)
 
 
 class Trial:
@@ -73,30 +76,20 @@ class Trial:
         self.area, self.layout = scenario.area, scenario.area.layout
         known = scenario if sensor is None else _unknown(scenario)
         self.execution = Execution(known, planner, aside=aside, replan=replan, budget=budget)
-        self._destinations = set(scenario.destinations.tolist())
-        self._blocked = np.ones(self.layout.size, dtype=bool)
-        self._inner(self._blocked)[:] = scenario.area.barriers
-        self._since = np.full(self.layout.size, -1 if sensor is not None else 0, dtype=np.int32)
+        self._world = World(scenario)
+        self._knowledge = Knowledge(self._world, sensor)
         self._events = sorted(events, key=lambda event: event.step)
         self._occurrences: list[Occurrence] = []
-        self._starts = scenario.robots.tolist()
-        # One column for each robot: joined after step, ended after step, late up to step, cut off since step.
-        self._log = np.zeros((4, len(self._starts)), dtype=np.int64)
-        self._log[[_ENDED, _CUT_OFF]] = -1
+        self._log = Log(scenario.robots)
         self._actions: list[NDArray[np.uint8]] = []
         self._touched: list[tuple[int, int]] = []
         #: Seconds of each step, from events to moves.
         self.seconds: list[float] = []
         self._repairs = [0, 0]
-        self._moved = np.zeros(len(self._starts), dtype=bool)
+        self._moved = np.zeros(scenario.robot_count, dtype=bool)
         self._look(0)  # nobody does yet: the code is loaded now, not in the first step
         self._moved[:] = True
         self._note_ends(0)
-
-    def _inner(self, sites: NDArray[Any]) -> NDArray[Any]:
-        """Return the part of a padded array that belongs to cells, to write to."""
-        inner = sites[self.layout.origin : self.layout.origin + self.area.height * self.layout.pitch]
-        return inner.reshape(self.area.height, self.layout.pitch)[:, : self.area.width]
 
     @property
     def steps_done(self) -> int:
@@ -116,17 +109,17 @@ class Trial:
     @property
     def barriers(self) -> NDArray[np.bool_]:
         """Where barriers are now, whoever knows of them, shape (height, width)."""
-        return self._inner(self._blocked).copy()
+        return self._world.barriers.copy()
 
     @property
     def destinations(self) -> NDArray[np.int64]:
         """Numbers of the cells that are destinations now, ascending."""
-        return np.array(sorted(self._destinations), dtype=np.int64)
+        return self._world.destination_cells
 
     @property
     def known(self) -> NDArray[np.bool_]:
         """Which cells robots know, shape (height, width)."""
-        return np.asarray(self._inner(self._since) >= 0)
+        return self._knowledge.is_known
 
     @property
     def repairs(self) -> tuple[int, int]:
@@ -189,53 +182,27 @@ class Trial:
 
     def _note_ends(self, step: int) -> None:
         """Note who is not in the area any more after `step`, and who cannot arrive."""
-        state, log = self.execution.state_of_robot, self._log
-        log[_ENDED, (log[_ENDED] < 0) & (state != GOING)] = step
-        is_cut_off = np.zeros(state.size, dtype=bool)
-        is_cut_off[self.execution.cut_off_robots] = True
-        log[_CUT_OFF, ~is_cut_off] = -1
-        log[_CUT_OFF, is_cut_off & (log[_CUT_OFF] < 0)] = step
+        self._log.note(step, self.execution.state_of_robot, self.execution.cut_off_robots)
 
     def _late(self, step: int) -> NDArray[np.int64]:
-        late = self._log[_LATE_UNTIL] >= step
+        late = self._log.late_until >= step
         if self.delay:  # a generator for each step, so that a run that is resumed goes on alike
             late |= np.random.default_rng([self.seed, step]).random(late.size) < self.delay
         return np.flatnonzero(late)
 
     def _look(self, step: int) -> None:
         """Let robots see what is around them."""
-        from trihex.running.kernels.sensing import look
-
-        if self.sensor is None:
-            return
-        site = self.execution.site_of_robot[(self.execution.state_of_robot == GOING) & self._moved]
-        news = np.empty(self.area.cell_count, dtype=np.int32)
-        first, ray_dx, ray_dy = self.sensor.rays
-        self._since[site] = np.where(self._since[site] < 0, step - 1, self._since[site])
-        count = look(
-            site,
-            self.sensor.seen_dx,
-            self.sensor.seen_dy,
-            first,
-            ray_dx,
-            ray_dy,
-            self.layout.origin,
-            self.layout.pitch,
-            self.area.height,
-            self.area.width,
-            self._blocked,
-            step - 1,
-            self._since,
-            news,
-        )
-        seen = news[:count]
-        self._observe(blocked=seen[self._blocked[seen] & ~self.execution.field.blocked[seen]])
+        looking = (self.execution.state_of_robot == GOING) & self._moved
+        seen = self._knowledge.look(self.execution.site_of_robot[looking], step - 1)
+        self._observe(blocked=seen[self._world.blocked[seen] & ~self.execution.field.blocked[seen]])
 
     def _observe(self, **sites: NDArray[np.int32]) -> None:
         """Tell the execution of a change, if it is one."""
         if not any(own.size for own in sites.values()):
             return
-        repair = self.execution.observe(**{name: self.layout.site_to_cell(own) for name, own in sites.items()})
+        self._note_repair(self.execution.observe(**{n: self.layout.site_to_cell(own) for n, own in sites.items()}))
+
+    def _note_repair(self, repair: Repair) -> None:
         self._repairs[0] += 1
         self._repairs[1] += repair.touched
 
@@ -245,95 +212,45 @@ class Trial:
             changes = self._changes_of(event)
         except (ExecutionError, ScenarioError) as error:
             return Occurrence(event, refusal=str(error))
-        site = {name: self.layout.cell_to_site(np.array(cells, dtype=np.int64)) for name, cells in changes.items()}
-        blocked, freed = site.get("blocked", _NONE), site.get("freed", _NONE)
-        self._blocked[blocked], self._blocked[freed] = True, False
-        self._destinations.difference_update(changes.get("closed", ()))
-        self._destinations.update(changes.get("opened", ()))
-        if event.kind == "break":
-            return Occurrence(event, **changes)
+        sites = self._world.change(**changes)
+        if event.kind == "break":  # all know it
+            return Occurrence(event, "", **changes)
         if self.sensor is not None:
-            self._since[blocked], self._since[freed] = -1, event.step - 1
-            blocked, freed = _NONE, freed[self.execution.field.blocked[freed]]
+            self._knowledge.change(sites["blocked"], sites["freed"], event.step - 1)
+            sites["blocked"], sites["freed"] = _NONE, sites["freed"][self.execution.field.blocked[sites["freed"]]]
             self._moved[:] = True  # all look again
-        self._observe(blocked=blocked, freed=freed, opened=site.get("opened", _NONE), closed=site.get("closed", _NONE))
-        return Occurrence(event, **changes)
+        self._observe(**sites)
+        return Occurrence(event, "", **changes)
 
-    def _changes_of(self, event: Event) -> dict[str, Any]:
+    def _changes_of(self, event: Event) -> dict[str, tuple[int, ...]]:
         """Return the cells that an event changes, after what it does to robots is done; raise an error if it cannot."""
-        if event.kind in ("join", "leave", "break", "late"):
-            return self._change_robots(event)
-        cell = self._cell(event.cell)
-        if event.kind == "barrier":
-            if self._is_blocked(cell):
-                raise ExecutionError(f"{self.area.name_of_cell(cell)} is a barrier already")
-            if cell in self._destinations:
-                raise ExecutionError(f"{self.area.name_of_cell(cell)} is a destination, close it first")
-            robots = np.flatnonzero(self.execution.cell_of_robot == cell)
-            if robots.size:
-                raise ExecutionError(f"robot {robots[0]} stands at {self.area.name_of_cell(cell)}")
-            return {"blocked": (cell,)}
-        if event.kind == "clear":
-            if not self._is_blocked(cell):
-                raise ExecutionError(f"{self.area.name_of_cell(cell)} is no barrier")
-            return {"freed": (cell,)}
-        if event.kind == "open":
-            return {"opened": (self._check_new(cell),)}
-        if cell not in self._destinations:
-            raise ExecutionError(f"{self.area.name_of_cell(cell)} is no destination")
-        if event.kind == "close":
-            return {"closed": (cell,)}
-        return {"closed": (cell,), "opened": (self._check_new(self._cell(event.to)),)}
-
-    def _change_robots(self, event: Event) -> dict[str, Any]:
         robot = -1 if event.robot is None else event.robot
         if event.kind == "join":
-            cell = self._cell(event.cell)
-            if self._is_blocked(cell):
-                raise ExecutionError(f"a robot must join on a free cell; {self.area.name_of_cell(cell)} is a barrier")
-            self.execution.join(cell)
-            self._starts.append(cell)
-            self._log = np.append(self._log, [[event.step - 1], [-1], [0], [-1]], axis=1)
-            self._moved = np.append(self._moved, True)
-            self._note_ends(event.step - 1)
+            self._join(cell_at(self.area, event.cell), event.step - 1)
         elif event.kind == "leave":
             self.execution.leave(robot)
         elif event.kind == "break":
-            repair = self.execution.break_down(robot)
-            self._repairs[0] += 1
-            self._repairs[1] += repair.touched
+            self._note_repair(self.execution.break_down(robot))
             return {"blocked": (int(self.execution.cell_of_robot[robot]),)}
-        else:
+        elif event.kind == "late":
             self.execution.check_going(robot)
-            last = event.step + (event.steps or 1) - 1
-            self._log[_LATE_UNTIL, robot] = max(self._log[_LATE_UNTIL, robot], last)
+            self._log.delay(robot, event.step + (event.steps or 1) - 1)
+        else:
+            return changes_of(event, self._world, self.execution.cell_of_robot)
         return {}
 
-    def _cell(self, place: tuple[int, int] | None) -> int:
-        assert place is not None
-        x, y = place
-        if not (0 <= x < self.area.width and 0 <= y < self.area.height):
-            raise ExecutionError(f"({x}, {y}) lies outside the area")
-        return y * self.area.width + x
-
-    def _site(self, cell: int) -> int:
-        return int(self.layout.cell_to_site(np.array([cell], dtype=np.int64))[0])
-
-    def _is_blocked(self, cell: int) -> bool:
-        return bool(self._blocked[self._site(cell)])
-
-    def _check_new(self, cell: int) -> int:
-        """Return a cell that can become a destination."""
-        if self._is_blocked(cell):
-            raise ExecutionError(f"{self.area.name_of_cell(cell)} is a barrier")
-        if cell in self._destinations:
-            raise ExecutionError(f"{self.area.name_of_cell(cell)} is a destination already")
-        return cell
+    def _join(self, cell: int, step: int) -> None:
+        if self._world.is_barrier(cell):  # which robots may not know yet
+            raise ExecutionError(f"a robot must join on a free cell; {self.area.name_of_cell(cell)} is a barrier")
+        self.execution.join(cell)
+        self._log.join(cell, step)
+        self._moved = np.append(self._moved, True)
+        self._note_ends(step)
 
     def record(self) -> Run:
         """Return all that has happened so far."""
-        robots, steps = len(self._starts), self.steps_done
-        actions = np.full((steps, robots), WAIT, dtype=np.uint8)
+        log, state = self._log, self.execution.state_of_robot
+        actions = np.full((self.steps_done, state.size), WAIT, dtype=np.uint8)
         for row, action in zip(actions, self._actions, strict=True):
             row[: action.size] = action
         return Run(
@@ -343,13 +260,13 @@ class Trial:
             self.delay,
             self.seed,
             tuple(self._occurrences),
-            np.array(self._starts, dtype=np.int64),
-            self._log[_JOINED].copy(),
-            self._log[_ENDED].copy(),
-            self.execution.state_of_robot,
+            log.start.copy(),
+            log.joined.copy(),
+            log.ended.copy(),
+            state,
             actions,
-            self.layout.cells_of(self._since).copy(),  # type: ignore[arg-type]
-            self._log[_CUT_OFF].copy(),
+            self._knowledge.known_since,
+            log.cut_off_since.copy(),
             np.array(self._touched, dtype=np.int64).reshape(-1, 2),
         )
 

@@ -1,47 +1,65 @@
 """Sensing: which cells robots see from where they stand."""
 
-from numba import njit, types
+from typing import NamedTuple
 
-from trihex.kernels.signatures import IN_BOOL, IN_I32, OUT_I32, TABLE_I32
+from numba import types
+
+from trihex.kernels.signatures import HELPER, IN_BOOL, IN_I32, OUT_I32, TABLE_I32, declared, kernel
 
 
-@njit(
-    types.int64(
-        IN_I32, TABLE_I32, TABLE_I32, TABLE_I32, IN_I32, IN_I32, *[types.int64] * 4, IN_BOOL, types.int32, OUT_I32,
-        OUT_I32,
-    ),
-    cache=True,
-    nogil=True,
-)  # fmt: skip
-def look(site, seen_dx, seen_dy, first, ray_dx, ray_dy, origin, pitch, height, width, blocked, step, since, news):
-    """Stamp `since` with `step` where robots at `site` see a cell for the first time; fill those in `news`; count them.
+class Sight(NamedTuple):
+    """What can be seen from a cell of either orientation, row o of the tables for orientation o."""
 
-    From a site of orientation o, column i of `seen_dx` and `seen_dy` is seen if no cell from ``first[o, i]`` to
-    ``first[o, i + 1]`` of the rays is blocked. `news` has room for all cells.
+    dx: TABLE_I32  # columns from a cell to each that it sees
+    dy: TABLE_I32  # rows
+    first: TABLE_I32  # the i-th is seen if none of the cells first[o, i] .. first[o, i + 1] - 1 between is blocked
+    between_dx: IN_I32  # columns from a cell to those between
+    between_dy: IN_I32  # rows
+
+
+class SeenWorld(NamedTuple):
+    """Where cells are among the sites, and what is on them."""
+
+    origin: types.int64  # site of cell (0, 0)
+    pitch: types.int64  # sites in a row
+    height: types.int64  # rows of cells
+    width: types.int64  # cells in a row
+    blocked: IN_BOOL  # of each site: whether nobody sees past it
+
+
+@HELPER
+def _site_at(x, y, world):
+    """Return the site of a cell, -1 if it lies outside the world."""
+    if x < 0 or y < 0 or x >= world.width or y >= world.height:
+        return -1
+    return world.origin + y * world.pitch + x
+
+
+@HELPER
+def _is_hidden(x, y, side, i, sight, world):
+    """Tell whether a barrier stands between a cell and the i-th that it can see."""
+    for j in range(sight.first[side, i], sight.first[side, i + 1]):
+        site = _site_at(x + sight.between_dx[j], y + sight.between_dy[j], world)
+        if site >= 0 and world.blocked[site]:
+            return True
+    return False
+
+
+@kernel(types.int64(IN_I32, declared(Sight), declared(SeenWorld), types.int32, OUT_I32, OUT_I32))
+def look(sites, sight, world, step, since, news):
+    """Stamp `since` with `step` where robots at `sites` see a cell for the first time; list and count those in `news`.
+
+    `since` is -1 where nobody has seen a cell; `news` has room for all cells.
     """
     count = 0
-    for robot in range(len(site)):
-        y, x = divmod(site[robot] - origin, pitch)
-        side = site[robot] & 1
-        for i in range(seen_dx.shape[1]):
-            to_x = x + seen_dx[side, i]
-            to_y = y + seen_dy[side, i]
-            if to_x < 0 or to_y < 0 or to_x >= width or to_y >= height:
+    for robot in range(len(sites)):
+        y, x = divmod(sites[robot] - world.origin, world.pitch)
+        side = sites[robot] & 1
+        for i in range(sight.dx.shape[1]):
+            target = _site_at(x + sight.dx[side, i], y + sight.dy[side, i], world)
+            if target < 0 or since[target] >= 0 or _is_hidden(x, y, side, i, sight, world):
                 continue
-            target = origin + to_y * pitch + to_x
-            if since[target] >= 0:
-                continue
-            is_seen = True
-            for j in range(first[side, i], first[side, i + 1]):
-                between_x = x + ray_dx[j]
-                between_y = y + ray_dy[j]
-                if between_x < 0 or between_y < 0 or between_x >= width or between_y >= height:
-                    continue
-                if blocked[origin + between_y * pitch + between_x]:
-                    is_seen = False
-                    break
-            if is_seen:
-                since[target] = step
-                news[count] = target
-                count += 1
+            since[target] = step
+            news[count] = target
+            count += 1
     return count

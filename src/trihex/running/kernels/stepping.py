@@ -1,183 +1,194 @@
 """One step of robots in a world that may change before the next: greedy descent, or the least Fcost.
 
-As in the kernels of the planners, but nothing is kept that a change of the world would spoil: the branch of a cell of
-the forest of shortest ways, and its steps to the end, are found when first asked for and stamped with the version of
-the field. Robots are asked in the order of their distance; so the nearest of those that can act always comes nearer.
+Robots are asked in the order of their distance; so the nearest of those that can act always comes nearer.
 """
 
-from numba import njit, types
+from typing import NamedTuple
 
-from trihex.kernels.signatures import IN_I32, IN_I64, IN_U16, OUT_I32, OUT_I64, OUT_U8, TABLE_I32
+import numpy as np
+from numba import types
+
+from trihex.kernels.signatures import HELPER, IN_I32, OUT_I32, OUT_U8, declared, kernel
+from trihex.running.kernels.lines import Forest, LivingWays, WaitingLines, line_at, slot_of
 
 GREEDY, FCOST = 0, 1
 # When a robot that had better wait steps to a place no farther than its own: never, if that costs no more, or always
 # unless it has just left that place.
 STAY, WORTH, ALWAYS = 0, 1, 2
-_FIELD = [IN_I32, IN_U16, TABLE_I32, IN_I32]
-_FOREST = [types.int32, OUT_I32, OUT_I32, OUT_I32]
+_FAR = np.int64(1 << 60)
+_NONE = np.int64(-1)
 
 
-@njit(types.int64(types.int64, *_FIELD), cache=True, nogil=True)
-def _first_best(site, distance, moves, offset, cost):
-    """Return the first best direction of a site that is reached and no destination."""
-    for k in range(len(cost)):
-        if moves[site] >> k & 1 and distance[site + offset[site & 1, k]] == distance[site] - cost[k]:
-            return k
-    return -1
+class StepRules(NamedTuple):
+    """How robots decide, and what they must not do."""
+
+    mode: types.int64  # `GREEDY` or `FCOST`
+    aside: types.int64  # `STAY`, `WORTH` or `ALWAYS`
+    waiting_cost: types.int64  # w_t
+    first_vertex_move: types.int64  # the first direction that passes a vertex which others may not
+    entry_limit: types.int64  # how many may enter a destination in a step, 0 for any number
+    step: types.int64  # number of the step
 
 
-@njit(types.int64(types.int64, *_FIELD, *_FOREST), cache=True, nogil=True)
-def _slot_of(site, distance, moves, offset, cost, version, seen, branch, steps):
-    """Return branch << 32 | steps of a site; the branch is the last site of its shortest way."""
-    at = site
-    walked = 0
-    while seen[at] != version:
-        parent = at + offset[at & 1, _first_best(at, distance, moves, offset, cost)]
-        if distance[parent] == 0:
-            seen[at] = version
-            branch[at] = at
-            steps[at] = 1
-            break
-        at = parent
-        walked += 1
-    last = types.int64(branch[at])
-    left = steps[at] + walked
-    at = site
-    result = last << 32 | left
-    while seen[at] != version:
-        seen[at] = version
-        branch[at] = last
-        steps[at] = left
-        left -= 1
-        at += offset[at & 1, _first_best(at, distance, moves, offset, cost)]
-    return result
+class Walkers(NamedTuple):
+    """Robots and where they are."""
+
+    site: OUT_I32  # of each robot
+    came_from: OUT_I32  # where each robot was before its last move, -1 if it has made none
+    action: OUT_U8  # of each robot in this step: filled where it moves
+    occupied: OUT_U8  # of each site: whether a robot is there
 
 
-@njit(types.void(IN_I32, *_FIELD, *_FOREST, OUT_I64), cache=True, nogil=True)
-def find_slots(sites, distance, moves, offset, cost, version, seen, branch, steps, slots):
-    """Fill the slots of `sites`."""
-    for i in range(len(sites)):
-        slots[i] = _slot_of(sites[i], distance, moves, offset, cost, version, seen, branch, steps)
+class StepTraffic(NamedTuple):
+    """Stamps: what has happened in which step."""
+
+    passed: OUT_I32  # the last step in which a robot passed each vertex
+    entered_step: OUT_I32  # the last step in which a robot entered each destination, or led the branch of each site
+    entered_count: OUT_I32  # how many entered each destination in that step
 
 
-@njit(types.int64(IN_I64, OUT_I64, OUT_I64), cache=True, nogil=True)
-def line_up(slots, slot_of_line, line):
-    """Fill how long the line is in each slot that is taken, given the sorted slots of all robots; return how many.
+class StepChoice(NamedTuple):
+    """What a robot can do now, and what it would do if all were empty; directions are -1 if there is none."""
 
-    One robot leaves the line with each step towards the end of the branch, those that stand in the slot join.
-    """
-    count = 0
-    for i in range(len(slots)):
-        if count > 0 and slots[i] == slot_of_line[count - 1]:
-            line[count - 1] += 1
+    direction: types.int64  # the one of least Fcost that it can take, of several the one that leads nearest
+    fcost: types.int64  # of that
+    distance: types.int64  # of the site it leads to
+    descent: types.int64  # the first best direction that it can take
+    best: types.int64  # the least Fcost of all moves, whoever stands there
+
+
+@HELPER
+def _delay_at(target, own_slot, ways, forest, lines):
+    """Return how many steps the line ahead costs a robot of a slot that moves to `target`, itself left out."""
+    slot = slot_of(target, ways, forest) + 1
+    return max(np.int64(0), line_at(slot, lines) - (slot == own_slot))
+
+
+@HELPER
+def _is_barred(here, k, target, rules, ways, walkers, traffic):
+    """Tell whether a robot is there, one has passed the same vertex, or enough have entered the destination."""
+    if walkers.occupied[target]:
+        return True
+    if k >= rules.first_vertex_move and traffic.passed[here + ways.vertex[here & 1, k]] == rules.step:
+        return True
+    if rules.entry_limit == 0 or ways.distance[target] > 0:
+        return False
+    return traffic.entered_step[target] == rules.step and traffic.entered_count[target] >= rules.entry_limit
+
+
+@HELPER
+def _descend(here, rules, ways, walkers, traffic):
+    """Return the first best direction that a robot can take, -1 if there is none."""
+    for k in range(len(ways.cost)):
+        if ways.moves[here] >> k & 1:
+            target = here + ways.offset[here & 1, k]
+            is_best = np.int64(ways.distance[target]) + ways.cost[k] == ways.distance[here]
+            if is_best and not _is_barred(here, k, target, rules, ways, walkers, traffic):
+                return np.int64(k)
+    return _NONE
+
+
+@HELPER
+def _weigh(here, own_slot, rules, ways, forest, lines, walkers, traffic):
+    """Return what a robot that stands `here` can do, and what it would do if all were empty."""
+    best, least, nearest = _FAR, _FAR, _FAR
+    taken, descent = _NONE, _NONE
+    for k in range(len(ways.cost)):
+        if not ways.moves[here] >> k & 1:
             continue
-        line[count] = 1
-        if count > 0 and slots[i] >> 32 == slot_of_line[count - 1] >> 32:
-            line[count] += max(0, line[count - 1] - (slots[i] - slot_of_line[count - 1]))
-        slot_of_line[count] = slots[i]
-        count += 1
-    return count
+        target = here + ways.offset[here & 1, k]
+        there = np.int64(ways.distance[target])
+        fcost = there + ways.cost[k]
+        is_descent = fcost == ways.distance[here]
+        if there > 0:
+            fcost += rules.waiting_cost * _delay_at(target, own_slot, ways, forest, lines)
+        best = min(best, fcost)
+        if _is_barred(here, k, target, rules, ways, walkers, traffic):
+            continue
+        if is_descent and descent < 0:
+            descent = np.int64(k)
+        if fcost < least or (fcost == least and there < nearest):
+            taken, least, nearest = np.int64(k), fcost, there
+    return StepChoice(taken, least, nearest, descent, best)
 
 
-@njit(types.int64(types.int64, types.int64, IN_I64, IN_I64), cache=True, nogil=True)
-def _line_at(slot, lines, slot_of_line, line):
-    """Return how long the line is that a robot finds in a slot."""
-    low, high = 0, lines
-    while low < high:
-        middle = (low + high) // 2
-        if slot_of_line[middle] <= slot:
-            low = middle + 1
-        else:
-            high = middle
-    if low == 0 or slot_of_line[low - 1] >> 32 != slot >> 32:
-        return 0
-    return max(0, line[low - 1] - (slot - slot_of_line[low - 1]))
+@HELPER
+def _steps_aside(here, came_from, choice, rules, ways):
+    """Tell whether a robot that had better wait makes its move all the same."""
+    if rules.aside == STAY or choice.distance > ways.distance[here]:
+        return False
+    if rules.aside == WORTH:
+        return choice.fcost <= choice.best + rules.waiting_cost
+    target = here + ways.offset[here & 1, choice.direction]
+    return choice.distance < ways.distance[here] or target != came_from
 
 
-@njit(
+@HELPER
+def _leads(own_slot, rules, traffic):
+    """Tell whether no robot nearer than this one leads its branch in this step; it does now.
+
+    A branch is named by its last site, where no destination is: there the stamp of entries is free for that.
+    """
+    branch = own_slot >> 32
+    is_first = traffic.entered_step[branch] != rules.step
+    traffic.entered_step[branch] = rules.step
+    return is_first
+
+
+@HELPER
+def _decide(here, came_from, rules, ways, forest, lines, walkers, traffic):
+    """Return the direction that a robot takes, -1 if it waits."""
+    if rules.mode == GREEDY:
+        return _descend(here, rules, ways, walkers, traffic)
+    own_slot = slot_of(here, ways, forest)
+    is_first = _leads(own_slot, rules, traffic)
+    choice = _weigh(here, own_slot, rules, ways, forest, lines, walkers, traffic)
+    if is_first and choice.descent >= 0:
+        return choice.descent
+    had_better_wait = choice.fcost != choice.best and choice.fcost >= choice.best + rules.waiting_cost
+    if choice.direction >= 0 and had_better_wait and not _steps_aside(here, came_from, choice, rules, ways):
+        return _NONE
+    return choice.direction
+
+
+@HELPER
+def _move(robot, here, taken, rules, ways, walkers, traffic):
+    """Let a robot go, and stamp what it passes and enters."""
+    target = here + ways.offset[here & 1, taken]
+    walkers.action[robot] = taken
+    walkers.occupied[here] = 0
+    walkers.came_from[robot] = here
+    walkers.site[robot] = target
+    if taken >= rules.first_vertex_move:
+        traffic.passed[here + ways.vertex[here & 1, taken]] = rules.step
+    if ways.distance[target] > 0:
+        walkers.occupied[target] = 1
+        return
+    entered = traffic.entered_count[target] * (traffic.entered_step[target] == rules.step)
+    traffic.entered_count[target] = entered + 1
+    traffic.entered_step[target] = rules.step
+
+
+@kernel(
     types.void(
-        IN_I64, IN_I32, *_FIELD, TABLE_I32, *_FOREST, types.int64, IN_I64, IN_I64,
-        OUT_I32, OUT_I32, OUT_U8, OUT_I32, OUT_I32, OUT_I32, OUT_U8,
-    ),
-    cache=True,
-    nogil=True,
-)  # fmt: skip
-def act(
-    rules, order, distance, moves, offset, cost, vertex, version, seen, branch, steps, lines, slot_of_line, line,
-    site, came_from, occupied, passed, entered_step, entered_count, action,
-):  # fmt: skip
-    """Let each robot of `order` move or wait, and put its `action`; `site` and `occupied` follow.
+        IN_I32,
+        declared(StepRules),
+        declared(LivingWays),
+        declared(Forest),
+        declared(WaitingLines),
+        declared(Walkers),
+        declared(StepTraffic),
+    )
+)
+def act(order, rules, ways, forest, lines, walkers, traffic):
+    """Let each robot of `order` move or wait; `walkers` follow.
 
-    `rules` are: greedy or Fcost, when to step aside, w_t, the first vertex move that may not be crossed, the capacity
-    of a destination (0: any), the number of the step. A robot only ever enters a cell that is empty at that moment,
-    so no two exchange cells; who is asked later may enter a cell that was left in the same step.
-    """  # fmt: skip
-    mode, aside, waiting_cost, first_vertex_move, capacity, step = rules
+    A robot only ever enters a cell that is empty at that moment, so no two exchange cells; who is asked later may enter
+    a cell that was left in the same step.
+    """
     for i in range(len(order)):
         robot = order[i]
-        here = site[robot]
-        parity = here & 1
-        own_slot = types.int64(0)
-        if mode == FCOST:
-            own_slot = _slot_of(here, distance, moves, offset, cost, version, seen, branch, steps)
-        own_branch = own_slot >> 32
-        # A branch is named by its last site, where no destination is: there the stamp of capacity is free to tell
-        # that a robot nearer than this one leads the branch in this step.
-        is_first = mode == FCOST and entered_step[own_branch] != step
-        if mode == FCOST:
-            entered_step[own_branch] = step
-        best = 1 << 60
-        least = 1 << 60
-        nearest = 1 << 60
-        taken = -1
-        descent = -1
-        for k in range(len(cost)):
-            if not moves[here] >> k & 1:
-                continue
-            target = here + offset[parity, k]
-            there = types.int64(distance[target])
-            is_descent = there + cost[k] == distance[here]
-            if mode == GREEDY and not is_descent:
-                continue
-            fcost = there + cost[k]
-            if mode == FCOST and there > 0:
-                slot = _slot_of(target, distance, moves, offset, cost, version, seen, branch, steps) + 1
-                found = _line_at(slot, lines, slot_of_line, line) - (slot == own_slot)
-                fcost += waiting_cost * max(0, found)
-            best = min(best, fcost)
-            if occupied[target]:
-                continue
-            if k >= first_vertex_move and passed[here + vertex[parity, k]] == step:
-                continue
-            if capacity > 0 and there == 0 and entered_step[target] == step and entered_count[target] >= capacity:
-                continue
-            if is_descent and descent < 0:
-                descent = k
-            if fcost < least or (fcost == least and there < nearest):
-                least = fcost
-                nearest = there
-                taken = k
-        if mode == GREEDY or (is_first and descent >= 0):
-            taken = descent
-        elif taken >= 0 and least != best and least >= best + waiting_cost:
-            steps_aside = aside != STAY and nearest <= distance[here]
-            if aside == WORTH and least > best + waiting_cost:
-                steps_aside = False
-            if aside == ALWAYS and nearest == distance[here] and here + offset[parity, taken] == came_from[robot]:
-                steps_aside = False
-            if not steps_aside:
-                taken = -1
-        if taken < 0:
-            continue
-        target = here + offset[parity, taken]
-        action[robot] = taken
-        occupied[here] = 0
-        came_from[robot] = here
-        site[robot] = target
-        if taken >= first_vertex_move:
-            passed[here + vertex[parity, taken]] = step
-        if distance[target] == 0:
-            entered_count[target] = 1 + entered_count[target] * (entered_step[target] == step)
-            entered_step[target] = step
-        else:
-            occupied[target] = 1
+        here = np.int64(walkers.site[robot])
+        taken = _decide(here, walkers.came_from[robot], rules, ways, forest, lines, walkers, traffic)
+        if taken >= 0:
+            _move(robot, here, taken, rules, ways, walkers, traffic)

@@ -1,0 +1,75 @@
+"""Changes: the cells that an event makes into something else, or why it cannot."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trihex.areas import Area, World
+from trihex.errors import ExecutionError
+from trihex.running.events import Event
+
+
+def cell_at(area: Area, place: tuple[int, int] | None) -> int:
+    """Return the number of the cell that an event names; raises ExecutionError if it lies outside."""
+    if place is None:
+        raise ExecutionError("the event names no cell")
+    x, y = place
+    if not (0 <= x < area.width and 0 <= y < area.height):
+        raise ExecutionError(f"({x}, {y}) lies outside the area")
+    return y * area.width + x
+
+
+def changes_of(event: Event, world: World, cell_of_robot: NDArray[np.int64]) -> dict[str, tuple[int, ...]]:
+    """Return what an event that concerns a cell changes, as `World.change` takes it.
+
+    Parameters
+    ----------
+    event : Event
+        A barrier that comes or goes, or a destination that opens, closes or moves.
+    world : World
+        As it is before the event.
+    cell_of_robot : int64 array
+        Number of the cell of each robot, -1 for those that are not in the area.
+
+    Raises
+    ------
+    ExecutionError
+        If it cannot happen.
+    """
+    area = world.area
+    cell = cell_at(area, event.cell)
+    if event.kind == "barrier":
+        return {"blocked": (_check_clear(cell, world, cell_of_robot),)}
+    if event.kind == "clear":
+        if not world.is_barrier(cell):
+            raise ExecutionError(f"{area.name_of_cell(cell)} is no barrier")
+        return {"freed": (cell,)}
+    if event.kind == "open":
+        return {"opened": (_check_new(cell, world),)}
+    if cell not in world.destinations:
+        raise ExecutionError(f"{area.name_of_cell(cell)} is no destination")
+    if event.kind == "close":
+        return {"closed": (cell,)}
+    return {"closed": (cell,), "opened": (_check_new(cell_at(area, event.to), world),)}
+
+
+def _check_clear(cell: int, world: World, cell_of_robot: NDArray[np.int64]) -> int:
+    """Return a cell that can become a barrier."""
+    if world.is_barrier(cell):
+        raise ExecutionError(f"{world.area.name_of_cell(cell)} is a barrier already")
+    if cell in world.destinations:
+        raise ExecutionError(f"{world.area.name_of_cell(cell)} is a destination, close it first")
+    robots = np.flatnonzero(cell_of_robot == cell)
+    if robots.size:
+        raise ExecutionError(f"robot {robots[0]} stands at {world.area.name_of_cell(cell)}")
+    return cell
+
+
+def _check_new(cell: int, world: World) -> int:
+    """Return a cell that can become a destination."""
+    if world.is_barrier(cell):
+        raise ExecutionError(f"{world.area.name_of_cell(cell)} is a barrier")
+    if cell in world.destinations:
+        raise ExecutionError(f"{world.area.name_of_cell(cell)} is a destination already")
+    return cell
