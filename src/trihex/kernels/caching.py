@@ -2,6 +2,7 @@
 
 import logging
 from functools import cache
+from pickle import UnpicklingError
 from types import FunctionType
 from typing import Any
 
@@ -38,6 +39,14 @@ class KernelCache(FunctionCache):
     """The cache of a kernel."""
 
     _impl_class = _Kept
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        """Return what is on disk, or nothing where it was left by a version whose names are gone."""
+        try:
+            return super().load_overload(sig, target_context)
+        except (AttributeError, ImportError, EOFError, UnpicklingError):
+            self.flush()
+            return None
 
 
 @cache
