@@ -19,12 +19,12 @@ def is_reachable(scenario: Scenario, cells: NDArray[np.int64]) -> NDArray[np.boo
 
     area, layout = scenario.area, scenario.area.layout
     start, place, law = layout.cell_to_site(cells), make_places(scenario), make_law(scenario)
-    reach = given(
-        kernels.Reach,
+    search = given(
+        kernels.Flood,
         mark=np.full(layout.size, kernels.UNKNOWN, dtype=np.uint8),
         queue=np.empty(area.free_count, dtype=np.int32),
         state=np.zeros(5, dtype=np.int64),
     )
-    while reach.state[kernels.NEXT] < start.size:
-        kernels.flood(start, place, law, reach, _BUDGET)
-    return np.asarray(reach.mark[start] == kernels.OPEN)
+    while search.state[kernels.NEXT] < start.size:
+        kernels.flood(start, place, law, search, _BUDGET)
+    return np.asarray(search.mark[start] == kernels.OPEN)

@@ -15,7 +15,7 @@ UNKNOWN, CLOSED, OPEN = 0, 1, 2
 NEXT, FIRST, HEAD, TAIL, IS_OPEN = range(5)
 
 
-class Reach(NamedTuple):
+class Flood(NamedTuple):
     """What has been searched so far."""
 
     mark: OUT_U8  # of each site: `UNKNOWN`; `CLOSED`, or `OPEN` once a destination is known to be connected with it
@@ -23,36 +23,36 @@ class Reach(NamedTuple):
     state: OUT_I64
 
 
-REACH = declared(Reach)
+FLOOD = declared(Flood)
 
 
 @HELPER
-def _add(site, reach):
-    reach.mark[site] = CLOSED
-    reach.queue[reach.state[TAIL]] = site
-    reach.state[TAIL] += 1
+def _add(site, search):
+    search.mark[site] = CLOSED
+    search.queue[search.state[TAIL]] = site
+    search.state[TAIL] += 1
 
 
 @HELPER
-def _look_around(site, place, law, reach):
+def _look_around(site, place, law, search):
     """Add the neighbours of a site that are not marked yet."""
     for k in range(law.offset.shape[1]):
         target = site + law.offset[site & 1, k]
-        if is_blocked(place[target]) or reach.mark[target] != UNKNOWN:
+        if is_blocked(place[target]) or search.mark[target] != UNKNOWN:
             continue
         if k >= law.edge_count and law.corner_rule != ALLOW:
             if is_corner_closed(site, target, site + law.vertex[site & 1, k], place, law):
                 continue
-        _add(target, reach)
+        _add(target, search)
 
 
-@kernel(types.void(IN_I32, IN_I32, LAW, REACH, types.int64))
-def flood(start, place, law, reach, budget):
+@kernel(types.void(IN_I32, IN_I32, LAW, FLOOD, types.int64))
+def flood(start, place, law, search, budget):
     """Mark all that is connected with each site of `start`: `CLOSED`, or `OPEN` if a destination is among it.
 
     Goes on where the last call left off, for at most `budget` sites. A move is open both ways or not at all.
     """
-    mark, queue, state = reach
+    mark, queue, state = search
     while state[NEXT] < len(start) and budget > 0:
         if state[HEAD] == state[TAIL]:
             site = np.int64(start[state[NEXT]])
@@ -61,12 +61,12 @@ def flood(start, place, law, reach, budget):
                 continue
             state[FIRST] = state[TAIL]
             state[IS_OPEN] = 0
-            _add(site, reach)
+            _add(site, search)
         site = np.int64(queue[state[HEAD]])
         state[HEAD] += 1
         budget -= 1
         state[IS_OPEN] |= place[site] < 0
-        _look_around(site, place, law, reach)
+        _look_around(site, place, law, search)
         if state[HEAD] == state[TAIL] and state[IS_OPEN]:
             for i in range(state[FIRST], state[TAIL]):
                 mark[queue[i]] = OPEN
