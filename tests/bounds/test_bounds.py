@@ -13,8 +13,11 @@ from tests.oracles.rules import Rules
 from tests.strategies import scenarios
 from trihex.areas import entries_per_step
 from trihex.bounds import bounds
-from trihex.bounds.cuts import find_crowded_nodes, find_cuts, make_crowd
-from trihex.bounds.gates import least_arrivals, make_gate_network
+from trihex.bounds.cuts import find_cuts
+from trihex.bounds.demand import make_demand
+from trihex.bounds.gates import make_gate_network
+from trihex.bounds.meetings import find_meeting_nodes
+from trihex.bounds.serving import least_arrivals
 
 
 def world(drawing, tessellation="hexagonal", **rules):
@@ -53,7 +56,7 @@ NESTED = world("rr#...#r. rr....... rr#...#D. rr#...#..", EDGES)
 
 
 def test_doors_behind_doors_are_all_seen():
-    assert [cut.width for cut in find_cuts(make_crowd(NESTED), 100)] == [1, 2]
+    assert [cut.width for cut in find_cuts(make_demand(NESTED), 100)] == [1, 2]
     assert values(NESTED)[2] == least_total_time(NESTED, 20)
 
 
@@ -118,28 +121,28 @@ def test_no_bound_exceeds_the_optimum(scenario):
     assert max(values(scenario)) <= optimum
 
 
-def all_nodes(crowd):
+def all_nodes(demand):
     """Every place where robots can hinder each other."""
-    scenario, layout = crowd.scenario, crowd.scenario.area.layout
-    cells = np.flatnonzero(crowd.steps_of_site > 0)
+    scenario, layout = demand.scenario, demand.scenario.area.layout
+    cells = np.flatnonzero(demand.nodes.steps_of_site > 0)
     destinations = layout.cell_to_site(scenario.destinations)
     full = destinations if scenario.destination_capacity else destinations[:0]
     vertices = np.array([], dtype=np.int64)
-    if crowd.has_vertices:
+    if scenario.forbids_crossing:
         edges = scenario.area.tessellation.edge_count
         vertices = np.unique(cells[:, None] + layout.vertex_of_direction[cells & 1, edges:])
-        vertices = np.array([v for v in vertices if crowd.sites_around(v).size], dtype=np.int64) + layout.size
+        vertices = np.array([v for v in vertices if demand.nodes.sites_around(v).size], dtype=np.int64) + layout.size
     return np.concatenate([cells, full, vertices]).astype(np.int32)
 
 
 @settings(max_examples=100, deadline=None)
 @given(scenarios(sides=(1, 4), most_robots=6))
 def test_if_every_place_is_a_gate_the_bound_is_the_least_sum_of_steps(scenario):
-    crowd = make_crowd(scenario)
-    network = make_gate_network(crowd, all_nodes(crowd))
-    total, served, _ = least_arrivals(crowd, network, 40, 10**9)
+    demand = make_demand(scenario)
+    network = make_gate_network(demand, all_nodes(demand))
+    total, served, _ = least_arrivals(demand, network, 40, 10**9)
     optimum = least_total_time(scenario, 8 + scenario.robot_count, count_steps=True)
-    assert served == crowd.sites.size
+    assert served == demand.sites.size
     assert total <= optimum
     if scenario.corners == "allow":  # other corner rules allow but some of the ways through a vertex
         assert total == optimum
@@ -148,25 +151,25 @@ def test_if_every_place_is_a_gate_the_bound_is_the_least_sum_of_steps(scenario):
 @settings(max_examples=60, deadline=None)
 @given(scenarios(sides=(3, 7), most_filled=0.6))
 def test_a_bound_that_is_cut_short_is_lower(scenario):
-    crowd = make_crowd(scenario)
-    whole = bounds._steps_past_gates(crowd, 64, None)
+    demand = make_demand(scenario)
+    whole = bounds._steps_past_gates(demand, 64, None)
     for limit, value in [("_MOST_LOOKS", 3), ("_MOST_SLOTS", 40), ("_MOST_VISITS", 4 * scenario.area.free_count)]:
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(bounds, limit, value)
-            assert crowd.steps.sum() <= bounds._steps_past_gates(crowd, 64, None) <= max(whole, _queued(crowd))
+            assert demand.steps.sum() <= bounds._steps_past_gates(demand, 64, None) <= max(whole, _queued(demand))
 
 
-def _queued(crowd):
-    cuts = find_cuts(crowd, 10**6)
-    return int(bounds._steps_past_cuts(crowd, cuts, entries_per_step(crowd.scenario)).sum())
+def _queued(demand):
+    cuts = find_cuts(demand, 10**6)
+    return int(bounds._steps_past_cuts(demand, cuts, entries_per_step(demand.scenario)).sum())
 
 
 @settings(max_examples=40, deadline=None)
 @given(scenarios(sides=(3, 6)))
 def test_cuts_part_robots_from_destinations_and_are_nested(scenario):
     scenario = replace(scenario, crossing="allow", destination_capacity=None)
-    crowd, rules = make_crowd(scenario), Rules(scenario)
-    for nearer, cut in pairwise([None, *find_cuts(crowd, 1000)]):
+    demand, rules = make_demand(scenario), Rules(scenario)
+    for nearer, cut in pairwise([None, *find_cuts(demand, 1000)]):
         assert nearer is None or set(nearer.behind) <= set(cut.behind)
         assert cut.width == cut.nodes.size
         blocked = set(rules.places(scenario.area.layout.site_to_cell(cut.nodes)))
@@ -176,11 +179,11 @@ def test_cuts_part_robots_from_destinations_and_are_nested(scenario):
             new = {other for other, _ in rules.neighbours(stack.pop())} - seen
             seen |= new
             stack += new
-        behind = set(rules.places(scenario.area.layout.site_to_cell(crowd.sites[cut.behind])))
+        behind = set(rules.places(scenario.area.layout.site_to_cell(demand.sites[cut.behind])))
         assert not behind & (seen - blocked)
 
 
-def test_crowded_nodes_are_where_robots_meet():
+def test_meeting_nodes_are_where_robots_meet():
     scenario = world("rrr#... rrr..D. rrr#...", EDGES)
     door = int(scenario.area.layout.cell_to_site(scenario.area.xy_to_cell(3, 1)))
-    assert door in find_crowded_nodes(make_crowd(scenario), 2)
+    assert door in find_meeting_nodes(make_demand(scenario), 2)

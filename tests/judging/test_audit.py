@@ -7,7 +7,7 @@ from hypothesis import given, settings, strategies as st
 import trihex as th
 from tests.oracles.rules import judge
 from tests.strategies import scenarios
-from trihex.judging.audit import KINDS
+from trihex.judging.conflict import KINDS
 from trihex.kernels.codes import JUMP, WAIT
 from trihex.plans import plan_from_lists
 

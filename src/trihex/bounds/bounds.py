@@ -17,8 +17,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.areas import Scenario, entries_per_step
-from trihex.bounds.cuts import Crowd, Cut, find_crowded_nodes, find_cuts, make_crowd
-from trihex.bounds.gates import least_arrivals, make_gate_network
+from trihex.bounds.cuts import Cut, find_cuts
+from trihex.bounds.demand import Demand, make_demand
+from trihex.bounds.gates import make_gate_network
+from trihex.bounds.meetings import find_meeting_nodes
+from trihex.bounds.serving import least_arrivals
 from trihex.fields import NScheme
 from trihex.kernels.codes import NOT_REACHED
 from trihex.record import Record
@@ -59,15 +62,12 @@ def make_lower_bound(n_scheme: NScheme, *, progress: Callable[[int, int], None] 
     50
     """
     makers = (distance_bound, slot_bound, cut_bound)
-    best = None
-    for done, make in enumerate(makers):
-        bound = make(n_scheme)
-        if best is None or bound.value > best.value:
-            best = bound
+    bounds = []
+    for make in makers:
+        bounds.append(make(n_scheme))
         if progress is not None:
-            progress(done + 1, len(makers))
-    assert best is not None
-    return best
+            progress(len(bounds), len(makers))
+    return max(bounds, key=lambda bound: bound.value)
 
 
 def distance_bound(n_scheme: NScheme) -> LowerBound:
@@ -85,7 +85,7 @@ def slot_bound(n_scheme: NScheme) -> LowerBound:
     from trihex.bounds.kernels import steps as kernels
 
     scenario = n_scheme.scenario
-    slots = np.sort(make_crowd(scenario).steps)
+    slots = np.sort(make_demand(scenario).steps)
     return LowerBound("slot", _least_cost(n_scheme, int(kernels.queue_up(slots, entries_per_step(scenario)))))
 
 
@@ -103,31 +103,31 @@ def cut_bound(
         Called with (robots served, robots).
     """
     return LowerBound(
-        "cut", _least_cost(n_scheme, _steps_past_gates(make_crowd(n_scheme.scenario), most_gates, progress))
+        "cut", _least_cost(n_scheme, _steps_past_gates(make_demand(n_scheme.scenario), most_gates, progress))
     )
 
 
-def _steps_past_gates(crowd: Crowd, most_gates: int, progress: Callable[[int, int], None] | None) -> int:
-    """Return how many steps all robots of a crowd need at least in all."""
-    free_cells, entries = crowd.scenario.area.free_count, entries_per_step(crowd.scenario)
+def _steps_past_gates(demand: Demand, most_gates: int, progress: Callable[[int, int], None] | None) -> int:
+    """Return how many steps all robots need at least in all."""
+    free_cells, entries = demand.scenario.area.free_count, entries_per_step(demand.scenario)
     cuts = []
-    if entries * crowd.node_count <= _MOST_SENT:
-        cuts = find_cuts(crowd, most_searches=_MOST_VISITS // (4 * free_cells) + 1)
-    queued = _steps_past_cuts(crowd, cuts, entries)
-    visits = min(_MOST_VISITS, _VISITS_PER_ROBOT * crowd.sites.size)
-    gates = _choose_gates(crowd, cuts, min(most_gates, visits // free_cells))
+    if entries * demand.nodes.count <= _MOST_SENT:
+        cuts = find_cuts(demand, most_searches=_MOST_VISITS // (4 * free_cells) + 1)
+    queued = _steps_past_cuts(demand, cuts, entries)
+    visits = min(_MOST_VISITS, _VISITS_PER_ROBOT * demand.sites.size)
+    gates = _choose_gates(demand, cuts, min(most_gates, visits // free_cells))
     horizon = int(queued.max(initial=0)) * 5 // 4 + 100
     horizon = min(horizon, _MOST_SLOTS // max(gates.size, 1))
     if gates.size == 0 or horizon == 0:
         return int(queued.sum())
-    total, served, last = least_arrivals(crowd, make_gate_network(crowd, gates), horizon, _MOST_LOOKS, progress)
+    total, served, last = least_arrivals(demand, make_gate_network(demand, gates), horizon, _MOST_LOOKS, progress)
     # Whoever is not served by the last step looked at arrives later, no more in a step than can enter.
-    left = np.arange(crowd.sites.size - served)
+    left = np.arange(demand.sites.size - served)
     total += int((last + 1 + left // entries).sum())
     return max(total, int(queued.sum()))
 
 
-def _steps_past_cuts(crowd: Crowd, cuts: list[Cut], entries: int) -> NDArray[np.int64]:
+def _steps_past_cuts(demand: Demand, cuts: list[Cut], entries: int) -> NDArray[np.int64]:
     """Return a least number of steps of each robot in some order, if of those behind a cut only `width` pass it a step.
 
     Where a robot passes the cut it is known how soon it can arrive. So the numbers of steps of those behind the first
@@ -135,27 +135,27 @@ def _steps_past_cuts(crowd: Crowd, cuts: list[Cut], entries: int) -> NDArray[np.
     """
     from trihex.bounds.kernels import steps as kernels
 
-    queued = crowd.steps[:0]
-    is_behind = np.zeros(crowd.sites.size, dtype=bool)
+    queued = demand.steps[:0]
+    is_behind = np.zeros(demand.sites.size, dtype=bool)
     for cut in cuts:
         new = cut.behind[~is_behind[cut.behind]]
         is_behind[new] = True
-        queued = np.sort(np.concatenate([queued, crowd.steps[new]]))
+        queued = np.sort(np.concatenate([queued, demand.steps[new]]))
         kernels.queue_up(queued, cut.width)
-    queued = np.sort(np.concatenate([queued, crowd.steps[~is_behind]]))
+    queued = np.sort(np.concatenate([queued, demand.steps[~is_behind]]))
     kernels.queue_up(queued, max(entries, 1))
     return queued
 
 
-def _choose_gates(crowd: Crowd, cuts: list[Cut], most: int) -> NDArray[np.int32]:
-    """Return up to `most` nodes: the cut for all robots, the cuts with the longest queues, the most crowded nodes."""
+def _choose_gates(demand: Demand, cuts: list[Cut], most: int) -> NDArray[np.int32]:
+    """Return up to `most` nodes: the cut for all robots, those with the longest queues, the nodes where most meet."""
     gates = np.empty(0, dtype=np.int32)
     for cut in cuts[-1:] + sorted(cuts[:-1], key=lambda cut: -cut.behind.size / cut.width):
         more = np.union1d(gates, cut.nodes)
         if more.size <= most:
             gates = more
     more_gates = min(most - gates.size, most // 2)
-    return np.union1d(gates, find_crowded_nodes(crowd, more_gates)) if more_gates > 3 else gates
+    return np.union1d(gates, find_meeting_nodes(demand, more_gates)) if more_gates > 3 else gates
 
 
 def _at_robots(n_scheme: NScheme, field: NDArray[np.int32]) -> NDArray[np.int64]:

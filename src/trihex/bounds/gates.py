@@ -1,25 +1,22 @@
-"""Gates: how soon the robots can arrive at best, if they hinder each other at a few chosen nodes only."""
+"""Gates: a few chosen nodes, and how far apart they are."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.bounds.cuts import Crowd
+from trihex.bounds.demand import Demand
 from trihex.record import Record
-
-_BUDGET = 10_000_000
 
 
 @dataclass(frozen=True, eq=False)
 class GateNetwork(Record):
     """Gates, the steps between them, and the steps from the robots to them, on ways that pass no other gate.
 
-    Robots of a crowd that can arrive without passing any gate belong to `free_steps`, the others to the lists.
+    Robots that can arrive without passing any gate belong to `free_steps`, the others to the lists.
 
     Parameters
     ----------
@@ -47,76 +44,66 @@ class GateNetwork(Record):
     free_steps: NDArray[np.int64]
 
 
-def make_gate_network(crowd: Crowd, nodes: NDArray[np.int32]) -> GateNetwork:
+def make_gate_network(demand: Demand, nodes: NDArray[np.int32]) -> GateNetwork:
     """Measure the ways between `nodes`, the robots and the destinations; one search in breadth for each gate."""
-    return _Survey(crowd, np.unique(nodes)).network()
+    return _Survey(demand, np.unique(nodes)).network()
 
 
 class _Survey:
     """The searches of `make_gate_network`, which share their arrays."""
 
-    def __init__(self, crowd: Crowd, nodes: NDArray[np.int32]) -> None:
-        self.crowd, self.nodes = crowd, nodes
-        scenario, size = crowd.scenario, crowd.scenario.area.layout.size
-        capacity = scenario.destination_capacity or 1
+    def __init__(self, demand: Demand, nodes: NDArray[np.int32]) -> None:
+        from trihex.bounds.kernels.gates import Landmarks, Surroundings
+        from trihex.kernels.signatures import given
+
+        self.demand, self.nodes = demand, nodes
+        size, count = demand.scenario.area.layout.size, demand.nodes.count
         # Only a destination passes more than one robot: it stands in the list once for each of them.
         self.is_destination = np.zeros(nodes.size, dtype=bool)
-        self.is_destination[nodes < size] = crowd.is_destination[nodes[nodes < size]]
-        self.copies = np.where(self.is_destination, capacity, 1)
-        self.gate_of_node = np.full(crowd.node_count, -1, dtype=np.int32)
+        self.is_destination[nodes < size] = demand.nodes.is_destination[nodes[nodes < size]]
+        self.copies = np.where(self.is_destination, max(demand.scenario.entry_limit, 1), 1)
+        self.gate_of_node = np.full(count, -1, dtype=np.int32)
         self.gate_of_node[nodes] = np.arange(nodes.size)
-        self.robot_at = np.full(crowd.node_count, -1, dtype=np.int32)
-        self.robot_at[crowd.sites] = np.arange(crowd.sites.size)
-        self.is_special = (self.gate_of_node >= 0) | (self.robot_at >= 0)
-        self.is_special[:size] |= crowd.is_destination
-        self.steps = np.full(crowd.node_count, -1, dtype=np.int32)
-        self.queue = np.empty(crowd.node_count, dtype=np.int32)
-        self.near_gate, self.gate_steps = np.empty((2, nodes.size), dtype=np.int32)
-        self.near_robot, self.robot_steps = np.empty((2, crowd.sites.size), dtype=np.int32)
+        self.robot_at = np.full(count, -1, dtype=np.int32)
+        self.robot_at[demand.sites] = np.arange(demand.sites.size)
+        is_special = (self.gate_of_node >= 0) | (self.robot_at >= 0)
+        is_special[:size] |= demand.nodes.is_destination
+        self.landmarks = given(Landmarks, is_special=is_special, gate_of_node=self.gate_of_node, robot_at=self.robot_at)
+        near_gate, gate_steps = np.empty((2, nodes.size), dtype=np.int32)
+        near_robot, robot_steps = np.empty((2, demand.sites.size), dtype=np.int32)
+        self.found = Surroundings(
+            near_gate=near_gate,
+            gate_steps=gate_steps,
+            near_robot=near_robot,
+            robot_steps=robot_steps,
+            count=np.zeros(3, dtype=np.int64),
+            steps=np.full(count, -1, dtype=np.int32),
+            queue=np.empty(count, dtype=np.int32),
+        )
 
     def look(self, gate: int, starts: NDArray[np.int32]) -> tuple[list[NDArray[np.int32]], int]:
         """Return what lies around: gates and steps, robots and steps; and the steps to a destination (-1: none)."""
         from trihex.bounds.kernels import gates as kernels
 
-        scenario, layout = self.crowd.scenario, self.crowd.scenario.area.layout
-        count = np.zeros(3, dtype=np.int64)
-        kernels.steps_from_gate(
-            gate,
-            starts,
-            scenario.moves,
-            layout.offset_of_direction,
-            layout.vertex_of_direction,
-            scenario.area.tessellation.edge_count,
-            self.crowd.has_vertices,
-            self.is_special,
-            self.crowd.is_destination,
-            self.gate_of_node,
-            self.robot_at,
-            self.steps,
-            self.queue,
-            self.near_gate,
-            self.gate_steps,
-            self.near_robot,
-            self.robot_steps,
-            count,
-        )
-        gates, robots = slice(int(count[0])), slice(int(count[1]))
-        lists = [self.near_gate[gates], self.gate_steps[gates], self.near_robot[robots], self.robot_steps[robots]]
-        return [part.copy() for part in lists], int(count[2])
+        found = self.found
+        kernels.look_around(gate, starts, self.demand.nodes.graph, self.landmarks, found)
+        gates, robots, out = found.count.tolist()
+        near = [found.near_gate[:gates], found.gate_steps[:gates]]
+        near += [found.near_robot[:robots], found.robot_steps[:robots]]
+        return [part.copy() for part in near], out
 
     def network(self) -> GateNetwork:
         """Look around from the destinations, then from every gate."""
-        crowd, size = self.crowd, self.crowd.scenario.area.layout.size
-        (_, _, free, _), _ = self.look(
-            -1, np.flatnonzero(crowd.is_destination & (self.gate_of_node[:size] < 0)).astype(np.int32)
-        )
-        self.robot_at[crowd.sites[free]] = -1
+        demand, size = self.demand, self.demand.scenario.area.layout.size
+        is_start = demand.nodes.is_destination & (self.gate_of_node[:size] < 0)
+        (_, _, free, _), _ = self.look(-1, np.flatnonzero(is_start).astype(np.int32))
+        self.robot_at[demand.sites[free]] = -1
         steps_out, arcs, robots = [], [], []
         # The number of the first copy of each gate.
         first_copy = np.cumsum(self.copies) - self.copies
         for gate, node in enumerate(self.nodes.tolist()):
             is_vertex = node >= size
-            starts = crowd.sites_around(node - size) if is_vertex else np.array([node], dtype=np.int32)
+            starts = demand.nodes.sites_around(node - size) if is_vertex else np.array([node], dtype=np.int32)
             (gates, gate_steps, near, robot_steps), out = self.look(gate, starts)
             # A vertex is passed in the step that leads into one of the cells around it, one step after the cell before.
             onto = ~self.is_destination[gates]
@@ -129,8 +116,8 @@ class _Survey:
             np.array(steps_out, dtype=np.int32),
             *_chained(arcs),
             *_chained(robots),
-            crowd.sites.size - free.size,
-            np.sort(crowd.steps[free]),
+            demand.sites.size - free.size,
+            np.sort(demand.steps[free]),
         )
 
 
@@ -143,63 +130,3 @@ def _chained(
     one = np.concatenate([empty, *(one for one, _ in lists)]).astype(np.int32)
     other = np.concatenate([empty, *(other for _, other in lists)]).astype(np.int32)
     return first, one, other
-
-
-def least_arrivals(
-    crowd: Crowd,
-    network: GateNetwork,
-    horizon: int,
-    most_looks: int,
-    progress: Callable[[int, int], None] | None = None,
-) -> tuple[int, int, int]:
-    """Return (steps of all robots served, number of them, last step looked at): the most that can arrive that soon.
-
-    Robots without a gate on their way are among them. All are served if `horizon` and `most_looks` allow.
-    """
-    from trihex.bounds.kernels import gates as kernels
-
-    gates, width = network.steps_out.size, horizon + 1
-    slots = gates * width
-    state = np.zeros(5, dtype=np.int64)
-    is_used = np.zeros(slots, dtype=bool)
-    onward, seen_in, seen_out = np.full(slots, -1, dtype=np.int32), *np.zeros((2, slots), dtype=np.int32)
-    first_slot = np.full(crowd.sites.size, -1, dtype=np.int32)
-    reach, dead_reach = np.full((2, gates), -1, dtype=np.int32)
-    next_robot, dead_robot, next_unserved = (network.first_robot[:-1].copy() for _ in range(3))
-    node, parent, changed, stack = np.empty((4, 2 * slots + 1), dtype=np.int32)
-    way = np.empty(2 * slots + 1, dtype=np.uint8)
-    looks = 0
-    while state[kernels.SERVED] < network.robot_count and state[kernels.STEP] + 1 < width and looks < most_looks:
-        kernels.arrive(
-            network.steps_out,
-            network.first_arc,
-            network.arc_gate,
-            network.arc_steps,
-            network.first_robot,
-            network.robot,
-            network.robot_steps,
-            network.robot_count,
-            width,
-            is_used,
-            onward,
-            seen_in,
-            seen_out,
-            first_slot,
-            reach,
-            next_robot,
-            dead_reach,
-            dead_robot,
-            next_unserved,
-            node,
-            parent,
-            way,
-            changed,
-            stack,
-            state,
-            min(_BUDGET, most_looks - looks),
-        )
-        looks = int(state[kernels.WORK])
-        if progress is not None:
-            progress(int(state[kernels.SERVED]), network.robot_count)
-    served, total = int(state[kernels.SERVED]), int(state[kernels.TOTAL])
-    return total + int(network.free_steps.sum()), served + network.free_steps.size, int(state[kernels.STEP])

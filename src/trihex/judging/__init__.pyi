@@ -1,7 +1,11 @@
 from .audit import (
     Audit as Audit,
-    Conflict as Conflict,
     audit_plan as audit_plan,
+)
+from .conflict import (
+    Conflict as Conflict,
+)
+from .reach import (
     is_reachable as is_reachable,
 )
 from .report import (

@@ -1,0 +1,63 @@
+"""Demand: the robots of a scenario that have to be led to destinations."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trihex.areas import Scenario
+from trihex.bounds.nodes import Nodes
+from trihex.record import Record, read_only
+
+_BUDGET = 1_000_000
+
+
+@dataclass(frozen=True, eq=False)
+class Demand(Record):
+    """The robots that can arrive and have not yet.
+
+    Parameters
+    ----------
+    nodes : Nodes
+        The places that their ways pass.
+    """
+
+    nodes: Nodes
+
+    @property
+    def scenario(self) -> Scenario:
+        """The scenario."""
+        return self.nodes.scenario
+
+    @cached_property
+    def sites(self) -> NDArray[np.int32]:
+        """Sites of the robots, the farthest first."""
+        steps_of_site = self.nodes.steps_of_site
+        sites = self.scenario.area.layout.cell_to_site(self.scenario.robots)
+        sites = sites[steps_of_site[sites] > 0]
+        return read_only(sites[np.argsort(-steps_of_site[sites], kind="stable")])
+
+    @cached_property
+    def steps(self) -> NDArray[np.int64]:
+        """Least number of steps of each of them, descending."""
+        return read_only(self.nodes.steps_of_site[self.sites].astype(np.int64))
+
+
+def make_demand(scenario: Scenario) -> Demand:
+    """Count the steps to the nearest destination from every site."""
+    from trihex.bounds.kernels import steps as kernels
+
+    layout = scenario.area.layout
+    steps = np.full(layout.size, -1, dtype=np.int32)
+    queue = np.empty(scenario.area.free_count, dtype=np.int32)
+    head, tail = 0, scenario.destinations.size
+    queue[:tail] = layout.cell_to_site(scenario.destinations)
+    steps[queue[:tail]] = 0
+    while head < tail:
+        end = min(tail, head + _BUDGET)
+        tail = kernels.count_steps(scenario.moves, layout.offset_of_direction, steps, queue, head, tail, _BUDGET)
+        head = end
+    return Demand(Nodes(scenario, read_only(steps)))

@@ -1,0 +1,74 @@
+"""Nodes: places that but one robot may pass in a step.
+
+A *node* is a site, or ``layout.size + vertex`` for a lattice vertex, where the scenario lets but one robot pass it in a
+step.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trihex.areas import Scenario
+from trihex.record import Record, read_only
+
+if TYPE_CHECKING:
+    from trihex.bounds.kernels.nodes import NodeGraph
+
+
+@dataclass(frozen=True, eq=False)
+class Nodes(Record):
+    """The nodes of a scenario, with what the kernels need to know about the ways between them.
+
+    Parameters
+    ----------
+    scenario : Scenario
+    steps_of_site : int32 array, shape (layout.size,)
+        Least number of steps to a destination; -1 where none can be reached.
+    """
+
+    scenario: Scenario
+    steps_of_site: NDArray[np.int32]
+
+    @property
+    def count(self) -> int:
+        """Number of nodes."""
+        return self.scenario.area.layout.size * (1 + self.scenario.forbids_crossing)
+
+    @cached_property
+    def is_destination(self) -> NDArray[np.bool_]:
+        """Whether each site is a destination."""
+        layout = self.scenario.area.layout
+        is_destination = np.zeros(layout.size, dtype=bool)
+        is_destination[layout.cell_to_site(self.scenario.destinations)] = True
+        return read_only(is_destination)
+
+    def sites_around(self, vertex: int) -> NDArray[np.int32]:
+        """Return the sites from which a move passes the lattice vertex with this number."""
+        layout = self.scenario.area.layout
+        sites = vertex + layout.ring_of_vertex
+        return np.asarray(sites[(self.scenario.moves[sites] & layout.via_of_ring) > 0])
+
+    @cached_property
+    def graph(self) -> NodeGraph:
+        """The same for kernels."""
+        from trihex.bounds.kernels.nodes import NodeGraph
+        from trihex.kernels.signatures import given
+
+        layout = self.scenario.area.layout
+        graph: NodeGraph = given(
+            NodeGraph,
+            steps=self.steps_of_site,
+            is_destination=self.is_destination,
+            moves=self.scenario.moves,
+            offset=layout.offset_of_direction,
+            vertex=layout.vertex_of_direction,
+            ring=layout.ring_of_vertex,
+            via=layout.via_of_ring,
+            first_vertex_move=self.scenario.first_vertex_move,
+        )
+        return graph
