@@ -71,7 +71,8 @@ class Reservations:
     def _make_lists(self, size: int) -> None:
         """Make empty lists for searches, of `size` nodes."""
         from trihex.kernels.signatures import given
-        from trihex.planners.kernels import astar, heap
+        from trihex.planners.kernels import astar
+        from trihex.planners.kernels.heap import Heap
 
         self._nodes = given(
             astar.SpaceTime,
@@ -83,7 +84,8 @@ class Reservations:
             place=np.empty(size, dtype=np.int32),
             table=np.full(4 * size, -1, dtype=np.int32),
         )
-        self._heap = heap.Heap(
+        self._heap = given(
+            Heap,
             key=np.empty(2 * size, dtype=np.int64),
             tie=np.empty(2 * size, dtype=np.int32),
             item=np.empty(2 * size, dtype=np.int32),

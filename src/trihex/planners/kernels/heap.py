@@ -1,4 +1,4 @@
-"""Heap: what is to be looked at next, the least first."""
+"""Heap: what is to be looked at next, the least first, with what decides between equal ones."""
 
 from typing import NamedTuple
 
