@@ -206,3 +206,16 @@ def test_two_robots_pass_a_bend_of_a_corridor_of_two_cells_in_one_step():
     assert len(ways(make_lanes(th.make_n_scheme(scenario)))) == 2
     last = {rule: th.make_plan(scenario, "fcost", rule=rule).steps for rule in ("aside", "lanes")}
     assert last["lanes"] < last["aside"]
+
+
+@pytest.mark.parametrize("tessellation", [th.Tessellation("triangular", costs="euclidean"), "square"])
+def test_a_heap_that_is_too_small_is_doubled_and_lanes_stay_as_they_are(tessellation, monkeypatch):
+    area = th.make_random_area(tessellation, 30, 40, density=0.2, seed=3)
+    goals = th.random_robots(area, 8, seed=3)
+    n_scheme = th.make_n_scheme(th.Scenario(area, goals, th.random_robots(area, 150, seed=4, avoid=goals)))
+    made = make_lanes(n_scheme, all_there_are=True)
+    monkeypatch.setattr("trihex.planners.lanes._HEAP_SIZE", 1)
+    again = make_lanes(n_scheme, all_there_are=True)
+    assert made.sites.size > 100
+    assert np.array_equal(made.sites, again.sites)
+    assert np.array_equal(made.d_scheme.directions, again.d_scheme.directions)

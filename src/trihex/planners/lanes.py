@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Scenario
+from trihex.areas import Scenario, entries_per_step
 from trihex.fields import DScheme, NScheme, Wave, make_d_scheme, renew_directions
 from trihex.kernels.codes import NOT_REACHED
 from trihex.record import Record, read_only
 
-_BUDGET = 1_000_000
+_BUDGET = 1_000_000  # nodes visited in one call of a kernel
+_HEAP_SIZE = 1024  # of the first heap; one that is too small is doubled
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,16 +66,15 @@ def make_lanes(n_scheme: NScheme, *, all_there_are: bool = False, most_visits: i
     most_visits : int
         Look for no more lanes after visits to so many nodes, each of which takes about a quarter of a microsecond.
     """
-    from trihex.planners.kernels import lanes as kernels
+    from trihex.planners.kernels.laying import Laid, lay
 
     scenario = n_scheme.scenario
-    layout, cost = scenario.area.layout, scenario.area.tessellation.cost_of_direction
-    starts, nodes = _linked(n_scheme, all_there_are, most_visits)
+    layout, goals = scenario.area.layout, scenario.area.layout.cell_to_site(scenario.destinations)
     along, direction = np.full(layout.size, NOT_REACHED, dtype=np.int32), np.zeros(layout.size, dtype=np.uint16)
-    goals = layout.cell_to_site(scenario.destinations)
     along[goals] = 0
     moves, sites = scenario.moves.copy(), np.empty(scenario.area.free_count, dtype=np.int32)
-    count = kernels.lay(starts, layout.offset_of_direction, cost, nodes, moves, along, direction, sites)
+    laid = Laid(moves=moves, distance=along, direction=direction, sites=sites)
+    count = lay(*_linked(n_scheme, all_there_are, most_visits), laid)
     sites = sites[:count].copy()
     Wave(scenario, moves, along).lowered(np.concatenate([goals, sites]))
     forest = replace(n_scheme, distance_of_site=read_only(along))
@@ -84,47 +85,70 @@ def make_lanes(n_scheme: NScheme, *, all_there_are: bool = False, most_visits: i
     return Lanes(forest, DScheme(forest, read_only(directions)), read_only(sites))
 
 
-def _linked(n_scheme: NScheme, all_there_are: bool, most_visits: int) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Return the sites of robots, the farthest first, and the nodes of `kernels.lanes` with all lanes."""
+def _linked(n_scheme: NScheme, all_there_are: bool, most_visits: int) -> tuple[Any, Any, Any]:
+    """Return who is to get a lane, the streets, and the network with all lanes, as kernels know them."""
+    from trihex.kernels.signatures import given
+    from trihex.planners.kernels import lanes, residual
+
+    scenario = n_scheme.scenario
+    layout, cost = scenario.area.layout, scenario.area.tessellation.cost_of_direction
+    starts = _starts(n_scheme)
+    demand = given(
+        lanes.LaneDemand,
+        starts=starts,
+        due=np.full(starts.size, residual.NOBODY - 1, dtype=np.int64),
+        price=-1 if all_there_are else price_of_waiting(scenario),
+        most_lanes=entries_per_step(scenario),
+        capacity=scenario.entry_limit,
+    )
+    streets = given(
+        residual.Streets,
+        moves=scenario.moves,
+        distance=n_scheme.distance_of_site,
+        offset=layout.offset_of_direction,
+        vertex=layout.vertex_of_direction,
+        ring=layout.ring_of_vertex,
+        via=layout.via_of_ring,
+        cost=cost,
+        toll=cost.max(),
+        first_vertex_move=scenario.first_vertex_move,
+    )
+    count = layout.size * (1 + scenario.forbids_crossing)
+    network = given(
+        residual.LaneNetwork,
+        node=np.zeros((count, residual.COLUMNS), dtype=np.int32),
+        ends=np.zeros(layout.size, dtype=np.int32),
+        seen=np.empty(count, dtype=np.int32),
+        level=np.empty(count, dtype=np.int32),
+    )
+    _link(demand, streets, network, most_visits)
+    return demand, streets, network
+
+
+def _link(demand: Any, streets: Any, network: Any, most_visits: int) -> None:
+    """Find lanes until there is nothing left to try, or that many nodes have been visited."""
     from trihex.planners.kernels import lanes as kernels
 
-    scenario, distance = n_scheme.scenario, n_scheme.distance_of_site
-    layout, tessellation = scenario.area.layout, scenario.area.tessellation
-    starts = layout.cell_to_site(scenario.robots)
+    state = np.zeros(kernels.STATE_SIZE, dtype=np.int64)
+    heap = np.empty(_HEAP_SIZE, dtype=np.int64)
+    while (
+        state[kernels.TRIED] < demand.starts.size
+        and state[kernels.FOUND] < demand.most_lanes
+        and state[kernels.VISITED] < most_visits
+    ):
+        left = most_visits - int(state[kernels.VISITED])
+        if kernels.link(demand, streets, network, heap, state, min(_BUDGET, left)):
+            heap = np.empty(2 * heap.size, dtype=np.int64)
+
+
+def _starts(n_scheme: NScheme) -> NDArray[np.int32]:
+    """Return the sites of robots that have a way before them, the farthest first."""
+    distance = n_scheme.distance_of_site
+    starts: NDArray[np.int32] = n_scheme.scenario.area.layout.cell_to_site(n_scheme.scenario.robots)
     starts = starts[(distance[starts] != NOT_REACHED) & (distance[starts] > 0)]
-    starts = starts[np.argsort(-distance[starts], kind="stable")]
-    forbids = scenario.crossing == "forbid" and layout.ring_of_vertex.size > 0
-    first_vertex_move = tessellation.edge_count if forbids else tessellation.direction_count
-    entrances = _entrances(scenario, first_vertex_move)
-    price = -1 if all_there_are else price_of_waiting(scenario)
-    rules = np.array([first_vertex_move, scenario.destination_capacity or 0, entrances, price], dtype=np.int64)
-    nodes = np.zeros((layout.size * (1 + forbids), kernels.COLUMNS), dtype=np.int32)
-    seen, level = np.empty(len(nodes), dtype=np.int32), np.empty(len(nodes), dtype=np.int32)
-    due = np.full(starts.size, kernels.NOBODY - 1, dtype=np.int64)
-    ends, state = np.zeros(layout.size, dtype=np.int32), np.zeros(3, dtype=np.int64)
-    graph = (layout.offset_of_direction, layout.vertex_of_direction, layout.ring_of_vertex, layout.via_of_ring)
-    while state[kernels.TRIED] < starts.size and state[kernels.FOUND] < entrances and most_visits > 0:
-        before = state[kernels.VISITED]
-        kernels.link(
-            *(rules, starts, scenario.moves, distance, *graph, tessellation.cost_of_direction),
-            *(nodes, ends, due, seen, level, state, min(_BUDGET, most_visits)),
-        )
-        most_visits -= int(state[kernels.VISITED] - before)
-    return starts, nodes
+    return starts[np.argsort(-distance[starts], kind="stable")]
 
 
 def price_of_waiting(scenario: Scenario) -> int:
     """Return what a step of waiting in a line costs: w_t, but no more than to go to and fro instead."""
     return min(scenario.waiting_cost, int(scenario.area.tessellation.cost_of_direction.min()))
-
-
-def _entrances(scenario: Scenario, first_vertex_move: int) -> int:
-    """Return how many robots can enter destinations in one step at most."""
-    layout = scenario.area.layout
-    goals = layout.cell_to_site(scenario.destinations)
-    moves = np.arange(scenario.area.tessellation.direction_count)
-    is_open = scenario.moves[goals, None] >> moves & 1 > 0
-    # Nobody shares an edge; but several moves may pass one vertex.
-    through = np.where(moves < first_vertex_move, -1 - moves, goals[:, None] + layout.vertex_of_direction[goals & 1])
-    ways = [np.unique(row[is_there]).size for row, is_there in zip(through, is_open, strict=True)]
-    return int(np.minimum(ways, scenario.destination_capacity or max(ways, default=0)).sum())

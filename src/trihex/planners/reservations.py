@@ -26,40 +26,69 @@ class Reservations:
     """
 
     def __init__(self, n_scheme: NScheme, memory_limit: int | None = None) -> None:
-        from trihex.planners.kernels import astar as kernels
+        from trihex.kernels.signatures import given
+        from trihex.planners.kernels import astar, reservations
 
         scenario = n_scheme.scenario
-        self.scenario, self.distance = scenario, n_scheme.distance_of_site
+        self.distance = n_scheme.distance_of_site
         layout, tessellation = scenario.area.layout, scenario.area.tessellation
         self._limit = limit_or_default(memory_limit)
-        offset, back = layout.offset_of_direction, layout.back_of_direction
-        self._forbids = scenario.crossing == "forbid" and tessellation.edge_count < tessellation.direction_count
-        first_vertex_move = tessellation.edge_count if self._forbids else tessellation.direction_count
-        ends = scenario.destinations.size if scenario.destination_capacity is not None else 0
-        self._number = np.zeros(layout.size if ends else 0, dtype=np.int32)
-        if ends:
-            self._number[layout.cell_to_site(scenario.destinations)] = np.arange(ends)
+        self._forbids = scenario.forbids_crossing
+        cost = tessellation.cost_of_direction
         sites = layout.cell_to_site(scenario.destinations).astype(np.int64)
-        around = np.unique(sites[:, None] + offset[sites & 1])
-        self._gates = around[(self.distance[around] > 0) & (self.distance[around] != NOT_REACHED)].astype(np.int32)
-        self._rules = np.array(
-            [scenario.waiting_cost, first_vertex_move, scenario.destination_capacity or 0, 0, layout.size, ends]
+        around = np.unique(sites[:, None] + layout.offset_of_direction[sites & 1])
+        self._terrain = given(
+            reservations.Terrain,
+            offset=layout.offset_of_direction,
+            vertex=layout.vertex_of_direction,
+            back=layout.back_of_direction,
+            cost=cost,
+            moves=scenario.moves,
+            distance=self.distance,
+            gates=around[(self.distance[around] > 0) & (self.distance[around] != NOT_REACHED)].astype(np.int32),
+            first_vertex_move=scenario.first_vertex_move,
+            waiting_cost=scenario.waiting_cost,
+            least_cost=min(scenario.waiting_cost, int(cost.min())),
+            most_cost=cost.max(),
         )
-        self._moves = (offset, layout.vertex_of_direction, tessellation.cost_of_direction, back)
-        self.reserved, self.passed = np.zeros(0, dtype=np.uint8), np.zeros(0, dtype=np.uint8)
-        self.entries = np.zeros(0, dtype=np.int32)
-        self._state = np.zeros(kernels.STATE_SIZE, dtype=np.int64)
+        ends = sites.size if scenario.entry_limit else 0
+        number = np.zeros(layout.size if ends else 0, dtype=np.int32)
+        if ends:
+            number[sites] = np.arange(ends)
+        self._reserved = given(
+            reservations.Reserved,
+            rows=0,
+            site=np.zeros(0, dtype=np.uint8),
+            vertex=np.zeros(0, dtype=np.uint8),
+            entries=np.zeros(0, dtype=np.int32),
+            number=number,
+            ends=ends,
+            capacity=scenario.entry_limit,
+        )
+        self._state = np.zeros(astar.STATE_SIZE, dtype=np.int64)
         self._make_lists(1 << 12)
 
     def _make_lists(self, size: int) -> None:
         """Make empty lists for searches, of `size` nodes."""
-        self._nodes = np.empty((5, size), dtype=np.int32)
-        self._lists = (
-            np.empty(size, dtype=np.int64),
-            np.full(4 * size, -1, dtype=np.int32),
-            np.empty(2 * size, dtype=np.int64),
-            np.empty(2 * size, dtype=np.int32),
-            np.empty(2 * size, dtype=np.int32),
+        from trihex.kernels.signatures import given
+        from trihex.planners.kernels import astar
+        from trihex.planners.kernels.heap import Heap
+
+        self._nodes = given(
+            astar.SpaceTime,
+            site=np.empty(size, dtype=np.int32),
+            step=np.empty(size, dtype=np.int32),
+            parent=np.empty(size, dtype=np.int32),
+            action=np.empty(size, dtype=np.uint8),
+            cost=np.empty(size, dtype=np.int64),
+            place=np.empty(size, dtype=np.int32),
+            table=np.full(4 * size, -1, dtype=np.int32),
+        )
+        self._heap = given(
+            Heap,
+            key=np.empty(2 * size, dtype=np.int64),
+            tie=np.empty(2 * size, dtype=np.int32),
+            item=np.empty(2 * size, dtype=np.int32),
         )
         self._state[:] = 0
 
@@ -71,7 +100,7 @@ class Reservations:
         TooLargeError
             If they would take more than the limit.
         """
-        have, size, ends = int(self._rules[3]), int(self._rules[4]), int(self._rules[5])
+        have, size, ends = self._reserved.rows, self.distance.size, self._reserved.ends
         if rows <= have:
             return
         rows = max(rows, have + have // 2)
@@ -81,62 +110,38 @@ class Reservations:
                 f"reservations would take {need / GIB:.1f} GiB ({rows} steps of {size} cells), more than "
                 f"memory_limit, {self._limit / GIB:.1f} GiB; plan fewer robots, a smaller area, or with fcost"
             )
-        self.reserved = _grown(self.reserved, rows * size)
-        self.passed = _grown(self.passed, rows * size * self._forbids)
-        self.entries = _grown(self.entries, rows * ends)
-        self._rules[3] = rows
-
-    def find_way(
-        self, start: int, is_shut: NDArray[np.bool_], limit: int = 1 << 62, most_looks: int = 1 << 62
-    ) -> NDArray[np.uint8] | None:
-        """Return the actions of the cheapest way from a site, or None if none costs less than `limit`.
-
-        ``is_shut[site]`` bars sites, none if it is empty. None as well if that is not known after `most_looks` nodes.
-        """
-        from trihex.planners.kernels import astar as kernels
-
-        offset, vertex, cost, back = self._moves
-        earliest = kernels.find_first_entry(
-            int(self.distance[start]) // int(cost.max()),
-            self._gates,
-            self._rules,
-            offset,
-            vertex,
-            back,
-            self.distance,
-            self._number,
-            self.reserved,
-            self.passed,
-            self.entries,
+        self._reserved = self._reserved._replace(
+            rows=rows,
+            site=_grown(self._reserved.site, rows * size),
+            vertex=_grown(self._reserved.vertex, rows * size * self._forbids),
+            entries=_grown(self._reserved.entries, rows * ends),
         )
-        kernels.begin(start, self.distance, self._nodes, *self._lists, self._state)
-        self._state[kernels.LOOKS] = 0
-        status = kernels.BUDGET_SPENT
-        while status in (kernels.BUDGET_SPENT, kernels.LIST_FULL):
-            if self._state[kernels.LOOKS] >= most_looks:
-                return None
-            if status == kernels.LIST_FULL:
-                self._make_lists(2 * self._nodes.shape[1])
-                kernels.begin(start, self.distance, self._nodes, *self._lists, self._state)
-            status = kernels.search(
-                *(self._rules, *self._moves, self.distance, self.scenario.moves, self._number, is_shut),
-                *(self.reserved, self.passed, self.entries, limit, earliest),
-                *(self._nodes, *self._lists, self._state, min(_BUDGET, most_looks)),
-            )
-        if status == kernels.NOTHING:
+
+    def find_way(self, start: int, is_shut: NDArray[np.bool_]) -> NDArray[np.uint8] | None:
+        """Return the actions of the cheapest way from a site, or None if there is none.
+
+        ``is_shut[site]`` bars sites, none if it is empty.
+        """
+        from trihex.planners.kernels import astar
+
+        status = astar.BUDGET_SPENT
+        while status in (astar.BUDGET_SPENT, astar.LIST_FULL):
+            if status == astar.LIST_FULL:
+                self._make_lists(2 * self._nodes.site.size)
+            space = (self._nodes, self._heap, self._state)
+            status = astar.search(start, self._terrain, self._reserved, is_shut, *space, _BUDGET)
+        if status == astar.NOTHING:
             return None
-        actions = np.empty(int(self._nodes[kernels.STEP, self._state[kernels.GOAL]]), dtype=np.uint8)
-        kernels.write_way(self._nodes, self._state, self._moves[0].shape[1], actions)
+        actions = np.empty(int(self._nodes.step[self._state[astar.GOAL]]), dtype=np.uint8)
+        astar.write_way(self._nodes, self._state, actions)
         return actions
 
-    def reserve(self, start: int, actions: NDArray[np.uint8], is_on: bool = True) -> None:
-        """Reserve a way, or free it again."""
-        from trihex.planners.kernels import astar as kernels
+    def reserve(self, start: int, actions: NDArray[np.uint8]) -> None:
+        """Reserve a way."""
+        from trihex.planners.kernels import reservations
 
         self.make_room(actions.size + 1)
-        offset, vertex = self._moves[:2]
-        tables = (self.reserved, self.passed, self.entries)
-        kernels.reserve(start, actions, is_on, self._rules, offset, vertex, self.distance, self._number, *tables)
+        reservations.reserve(start, actions, self._terrain, self._reserved)
 
 
 def _grown(array: NDArray[Any], size: int) -> NDArray[Any]:

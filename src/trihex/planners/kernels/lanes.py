@@ -1,303 +1,189 @@
 """Lanes: ways to the destinations that share no cell and no lattice vertex, found one robot after the other.
 
-Each robot in turn is sent along its cheapest path through the *residual graph* of the lanes so far: the path may lead
-against a lane, which then goes elsewhere from there (Busacker and Gowen 1961). A node that carries a lane is entered
-against it only. Nodes are sites, and size + number of a lattice vertex where nobody may cross. Each has a *value*: what
-a way from it costs at least, at first the distance, of a vertex the least of those around it. Values rise as lanes are
-found, so that no residual arc costs less than what it comes nearer (Edmonds and Karp 1972): its *reduced* cost is >= 0.
-For that a vertex is entered at the cost of the dearest move through it (which matters for euclidean triangles only).
-What is not touched stays 0, in arrays as in memory: nodes in arrays are given + 1.
+Each robot in turn is sent along its cheapest path through the residual graph of the lanes so far: the path may lead
+against a lane, which then goes elsewhere from there (Busacker and Gowen 1961).
 """
 
-import numpy as np
-from numba import njit, types
-from numba.cpython.unsafe.numbers import trailing_zeros
+from typing import NamedTuple
 
-from trihex.kernels.signatures import IN_I32, IN_I64, IN_U16, OUT_I32, OUT_I64, OUT_U16, TABLE_I32
+import numpy as np
+from numba import types
+
+from trihex.kernels.signatures import APART, HELPER, IN_I32, OUT_I64, declared, kernel
+from trihex.planners.kernels.key_heap import drop_least, push_key
+from trihex.planners.kernels.residual import (
+    AFTER,
+    BEFORE,
+    BEGIN,
+    NETWORK,
+    NOBODY,
+    NOTHING,
+    NOWHERE,
+    PAID,
+    REDUCED,
+    SEARCH,
+    STREETS,
+    VALUE,
+    arc_of,
+    change_lanes,
+    mark,
+    node_entered,
+    value_of,
+)
 
 # Entries of the state: robots tried, lanes found, nodes visited.
 TRIED, FOUND, VISITED = range(3)
-SITE = (1 << 32) - 1
-NOBODY = 1 << 30  # value of nodes from which nobody can reach a destination any more
-# Columns of the nodes: the node before and after on a lane (+ 1), what the lane paid to come here; the value (+ 1); the
-# number of the search that has seen the node, at which reduced cost, from which node and entering which (+ 1).
-BEFORE, AFTER, PAID, VALUE, SEARCH, REDUCED, PARENT, ENTERED = range(8)
-COLUMNS = 8
-# In BEFORE: here a lane begins.
-BEGIN = -1
+STATE_SIZE = 3
+# A key of the heap: the reduced cost, and the node in the lower 32 bits.
+_NODE = (1 << 32) - 1
+_ONE = np.int64(1)
 
 
-@njit(nogil=True)
-def _first_value(node, moves, distance, ring, via):
-    """Return what a way from a node to a destination costs at least, as long as there are no lanes."""
-    if node < len(moves):
-        return min(np.int64(distance[node]), NOBODY)
-    least = np.int64(NOBODY)
-    for i in range(len(ring)):
-        site = node - len(moves) + ring[i]
-        if moves[site] & via[i]:
-            least = min(least, np.int64(distance[site]))
-    return least
+class LaneDemand(NamedTuple):
+    """Who is to get a lane."""
+
+    starts: IN_I32  # the sites of the robots, in turn
+    due: OUT_I64  # what a lane of each may cost
+    price: types.int64  # what a step of waiting costs; -1: a lane may cost anything
+    most_lanes: types.int64  # how many lanes there can be in all
+    capacity: types.int64  # how many may end in one destination, 0 for any number
 
 
-@njit(nogil=True)
-def _cost(node, target, moves, offset, cost):
-    """Return what it costs to get from a node to the next one."""
-    if node >= len(moves):
-        return np.int64(0)
-    if target >= len(moves):
-        return np.int64(cost.max())
-    least = np.int64(NOBODY)
-    for k in range(len(cost)):
-        if moves[node] >> k & 1 and node + offset[node & 1, k] == target:
-            least = min(least, np.int64(cost[k]))
-    return least
+DEMAND = declared(LaneDemand)
 
 
-@njit(nogil=True)
-def _push(heap, size, key):
-    """Add a key to a heap of `size` keys; return the heap, which may have to grow."""
-    if size == len(heap):
-        heap = np.append(heap, np.empty_like(heap))
-    at = size
-    while at > 0 and heap[(at - 1) >> 1] > key:
-        heap[at] = heap[(at - 1) >> 1]
-        at = (at - 1) >> 1
-    heap[at] = key
-    return heap
+class LanePath(NamedTuple):
+    """What a search finds."""
+
+    last: types.int64  # the last node before the destination; -1: there is no path that is worth it
+    goal: types.int64  # the destination
+    reduced: types.int64  # the reduced cost; if there is no path, the least that is too much
+    seen: types.int64  # how many nodes the search has seen; -1: the heap was too small for it
+    is_limited: types.boolean  # whether any node was left out because it is too expensive
 
 
-@njit(nogil=True)
-def _drop_first(heap, size):
-    """Remove the least of `size` keys."""
-    key = heap[size - 1]
-    at = 0
-    while 2 * at + 1 < size - 1:
-        child = 2 * at + 1
-        if child + 1 < size - 1 and heap[child + 1] < heap[child]:
-            child += 1
-        if heap[child] >= key:
-            break
-        heap[at] = heap[child]
-        at = child
-    heap[at] = key
+@HELPER
+def _next(at, best, waiting, keys, network, heap):
+    """Return the nearest node, if any is nearer than `best`, how near it is, and how much is left in stack and heap."""
+    if waiting > 0:
+        return np.int64(network.level[waiting - 1]), at, waiting - 1, keys
+    while keys > 0 and heap[0] >> 32 < best:
+        reduced, node = heap[0] >> 32, heap[0] & _NODE
+        drop_least(heap, keys)
+        keys -= 1
+        if network.node[node, REDUCED] == reduced:  # or else it was reached at less cost since
+            return node, reduced, waiting, keys
+    return NOWHERE, at, waiting, keys
 
 
-@njit(nogil=True)
-def _search(
-    root, start, most, search, first_vertex_move, capacity, moves, distance, offset, vertex, ring, via, cost, ends,
-    nodes, seen, level, result,
-):  # fmt: skip
+@APART
+def _given_up(seen, network):
+    """Return what a search finds whose heap is too small; it can be begun again."""
+    for i in range(seen):
+        network.node[network.seen[i], SEARCH] = 0
+    return LanePath(NOWHERE, NOWHERE, NOTHING, NOWHERE, False)
+
+
+@HELPER
+def _search(root, start, most, search, demand, streets, network, heap):
     """Find the cheapest path from a node to a destination, if its reduced cost is at most `most`.
 
-    Fills `result` with its last node, the destination (-1: there is none), its reduced cost, the number of nodes seen,
-    and whether any was left out because it is too expensive. A Dijkstra search; nodes as near as the one under way wait
-    in a stack, so that of many equally good ways one is followed to its end.
+    A Dijkstra search; nodes as near as the one under way wait in a stack, so that of many equally good ways one is
+    followed to its end.
     """
-    size = len(moves)
-    toll = np.int64(cost.max())
-    heap = np.empty(1024, np.int64)
-    keys = 0
-    at = np.int64(0)
-    best = most + 1
-    result[:] = -1
-    is_limited = 0
-    nodes[root, SEARCH], nodes[root, REDUCED], nodes[root, PARENT], nodes[root, ENTERED] = search, 0, 0, start + 1
-    seen[0] = level[0] = root
-    count, waiting = 1, 1
+    nodes, size, arcs = network.node, len(streets.moves), len(streets.cost) + len(streets.ring) + 1
+    last, goal, best, at, is_limited = NOWHERE, NOWHERE, most + 1, NOTHING, False
+    mark(root, search, NOTHING, NOWHERE, start, network)
+    network.seen[0] = network.level[0] = root
+    seen, waiting, keys = _ONE, _ONE, NOTHING
     while best > at:
-        if waiting > 0:
-            waiting -= 1
-            node = np.int64(level[waiting])
-        elif keys > 0 and heap[0] >> 32 < best:
-            key = heap[0]
-            _drop_first(heap, keys)
-            keys -= 1
-            node = key & SITE
-            if nodes[node, REDUCED] < key >> 32:
-                continue
-            at = key >> 32
-        else:
+        if keys + arcs > len(heap):
+            return _given_up(seen, network)
+        node, at, waiting, keys = _next(at, best, waiting, keys, network, heap)
+        if node == NOWHERE:
             break
-        value = np.int64(nodes[node, VALUE]) - 1
-        after = np.int64(nodes[node, AFTER]) - 1
-        # Arc -1 leads back along the lane through the node.
-        for i in range(-1, len(cost) if node < size else len(ring)):
-            paid = np.int64(0)
-            if i < 0:
-                target = node
-            elif node >= size:
-                target = node - size + ring[i]
-                if not moves[target] & via[i]:
-                    continue
-            else:
-                if not moves[node] >> i & 1:
-                    continue
-                paid = np.int64(cost[i])
-                target = node + offset[node & 1, i]
-                if i >= first_vertex_move:
-                    paid = toll
-                    target = size + node + vertex[node & 1, i]
-            if target == after:
+        value, after = np.int64(nodes[node, VALUE]) - 1, np.int64(nodes[node, AFTER]) - 1
+        for i in range(-1, len(streets.cost) if node < size else len(streets.ring)):
+            target, paid = arc_of(node, i, streets)
+            if target == NOWHERE or target == after:
                 continue
-            if target < size and distance[target] == 0:
-                if at + paid - value < best and (capacity == 0 or ends[target] < capacity):
-                    best = at + paid - value
-                    result[0], result[1] = node, target
+            if target < size and streets.distance[target] == 0:
+                is_full = demand.capacity > 0 and network.ends[target] >= demand.capacity
+                if at + paid - value < best and not is_full:
+                    last, goal, best = node, target, at + paid - value
                 continue
-            there = target
-            before = np.int64(nodes[target, BEFORE])
-            if before > 0:  # a lane passes there: back along it
-                there = before - 1
-                paid -= nodes[target, PAID]
-            elif before == BEGIN or i < 0:
+            there, extra = node_entered(target, i < 0, network)
+            if there == NOWHERE or value_of(there, streets, network) >= NOBODY:
                 continue
-            if nodes[there, VALUE] == 0:
-                nodes[there, VALUE] = 1 + _first_value(there, moves, distance, ring, via)
-            if nodes[there, VALUE] > NOBODY:
-                continue
-            reduced = at + paid + nodes[there, VALUE] - 1 - value
+            reduced = at + paid + extra + nodes[there, VALUE] - 1 - value
             if reduced > most:
-                is_limited = 1
+                is_limited = True
                 continue
             if nodes[there, SEARCH] != search:
-                seen[count] = there
-                count += 1
+                network.seen[seen] = there
+                seen += 1
             elif nodes[there, REDUCED] <= reduced:
                 continue
-            nodes[there, SEARCH], nodes[there, REDUCED] = search, reduced
-            nodes[there, PARENT], nodes[there, ENTERED] = node + 1, target + 1
+            mark(there, search, reduced, node, target, network)
             if reduced == at:
-                level[waiting] = there
+                network.level[waiting] = there
                 waiting += 1
             else:
-                heap = _push(heap, keys, reduced << 32 | there)
+                push_key(heap, keys, reduced << 32 | there)
                 keys += 1
-    result[2], result[3], result[4] = best, count, is_limited
+    return LanePath(last, goal, best, seen, is_limited)
 
 
-@njit(nogil=True)
-def _expect(starts, distance, lanes, price, due):
+@HELPER
+def _raise_values(path, network):
+    """Let the values of all nodes that a search has seen rise to what it has found out."""
+    for i in range(path.seen):
+        node = network.seen[i]
+        value, reduced = np.int64(network.node[node, VALUE]), network.node[node, REDUCED]
+        if path.last < 0 and not path.is_limited:
+            network.node[node, VALUE] = NOBODY + 1
+        elif reduced < path.reduced:
+            network.node[node, VALUE] = min(value + path.reduced - reduced, NOBODY + 1)
+
+
+@HELPER
+def _expect(lanes, demand, distance):
     """Fill when each robot, the farthest first, would be there if all took turns in so many lanes without detours."""
-    if price < 0:
+    if demand.price < 0:
         return
-    for i in range(len(starts) - 1, -1, -1):
-        due[i] = distance[starts[i]]
-        if i + lanes < len(starts):
-            due[i] = max(due[i], due[i + lanes] + price)
+    for i in range(len(demand.starts) - 1, -1, -1):
+        demand.due[i] = distance[demand.starts[i]]
+        if i + lanes < len(demand.starts):
+            demand.due[i] = max(demand.due[i], demand.due[i + lanes] + demand.price)
 
 
-@njit(nogil=True)
-def _change_lanes(last, goal, moves, offset, cost, nodes):
-    """Lead lanes along the path that was found, from its last node back to the start, where the new lane begins."""
-    node = last
-    nodes[node, AFTER] = goal + 1
-    while True:
-        parent, entered = np.int64(nodes[node, PARENT]) - 1, np.int64(nodes[node, ENTERED]) - 1
-        if parent < 0:
-            nodes[entered, BEFORE] = BEGIN
-            return
-        if entered == parent:  # back along the lane through the node, which passes there no more
-            nodes[parent, BEFORE] = nodes[parent, AFTER] = 0
-        else:
-            nodes[parent, AFTER], nodes[entered, BEFORE] = entered + 1, parent + 1
-            nodes[entered, PAID] = _cost(parent, entered, moves, offset, cost)
-        node = parent
+@kernel(types.boolean(DEMAND, STREETS, NETWORK, OUT_I64, OUT_I64, types.int64))
+def link(demand, streets, network, heap, state, budget):
+    """Find lanes in turn until about `budget` nodes have been visited, or there is nothing left to try.
 
-
-@njit(
-    types.void(
-        *[IN_I64, IN_I32, IN_U16, IN_I32, TABLE_I32, TABLE_I32, IN_I32, IN_U16, IN_I32],
-        *[types.Array(types.int32, 2, "C"), OUT_I32, OUT_I64, OUT_I32, OUT_I32, OUT_I64, types.int64],
-    ),
-    cache=True,
-    nogil=True,
-)
-def link(
-    rules, starts, moves, distance, offset, vertex, ring, via, cost, nodes, ends, due, seen, level, state, budget
-):  # fmt: skip
-    """Find lanes from `starts` in turn until about `budget` nodes have been visited, or there is nothing left to try.
-
-    `rules` are: the first vertex move that may not be crossed, how many lanes may end in a destination (0: any), how
-    many there can be in all, what a step of waiting costs (-1: find all there are). ``via[i]`` has the bits of the
-    moves from ``vertex + ring[i]`` that pass the vertex; ``due[i]`` is what a lane of robot i may cost; ``ends[site]``
-    counts the lanes that end in a destination; `seen` and `level` have room for all nodes.
+    Returns whether the heap is too small to go on.
     """
-    first_vertex_move, capacity, most_lanes, price = rules
-    result = np.empty(5, np.int64)
     done = state[VISITED] + budget
-    while state[TRIED] < len(starts) and state[FOUND] < most_lanes and state[VISITED] < done:
-        start = np.int64(starts[state[TRIED]])
+    while state[TRIED] < len(demand.starts) and state[FOUND] < demand.most_lanes and state[VISITED] < done:
+        robot = state[TRIED]
         state[TRIED] += 1
-        if nodes[start, BEFORE] == BEGIN:
+        start = np.int64(demand.starts[robot])
+        before = np.int64(network.node[start, BEFORE])
+        if before == BEGIN:
             continue
-        root = start
-        if nodes[start, BEFORE] > 0:  # the lane that passes here goes elsewhere
-            root = np.int64(nodes[start, BEFORE]) - 1
-        if nodes[root, VALUE] == 0:
-            nodes[root, VALUE] = 1 + _first_value(root, moves, distance, ring, via)
-        most = due[state[TRIED] - 1] - nodes[root, VALUE] + 1
-        if root != start:
-            most += nodes[start, PAID]
+        root = before - 1 if before > 0 else start  # the lane that passes here goes elsewhere
+        most = demand.due[robot] - value_of(root, streets, network) + (network.node[start, PAID] if before > 0 else 0)
         if most < 0:
             continue
-        _search(
-            root, start, most, state[TRIED], first_vertex_move, capacity, moves, distance, offset, vertex, ring, via,
-            cost, ends, nodes, seen, level, result,
-        )  # fmt: skip
-        last, goal, best, count, is_limited = result
-        state[VISITED] += count
-        for i in range(count):
-            node = seen[i]
-            if last < 0 and not is_limited:
-                nodes[node, VALUE] = NOBODY + 1
-            elif nodes[node, REDUCED] < best:
-                nodes[node, VALUE] = min(nodes[node, VALUE] + best - nodes[node, REDUCED], NOBODY + 1)
-        if last >= 0:
-            _change_lanes(last, goal, moves, offset, cost, nodes)
-            ends[goal] += 1
+        path = _search(root, start, most, state[TRIED], demand, streets, network, heap)
+        if path.seen < 0:
+            state[TRIED] -= 1
+            return True
+        state[VISITED] += path.seen
+        _raise_values(path, network)
+        if path.last >= 0:
+            change_lanes(path, streets, network)
+            network.ends[path.goal] += 1
             state[FOUND] += 1
-            _expect(starts, distance, state[FOUND], price, due)
-
-
-@njit(
-    types.int64(
-        *[IN_I32, TABLE_I32, IN_I32, types.Array(types.int32, 2, "C", readonly=True)],
-        *[OUT_U16, OUT_I32, OUT_U16, OUT_I32],
-    ),
-    cache=True,
-    nogil=True,
-)
-def lay(starts, offset, cost, nodes, moves, distance, direction, sites):
-    """Fill the sites of all lanes, their distances along them and their directions; return how many sites there are.
-
-    Of `moves` those that lead into a lane are taken away, so that a wave from the lanes leaves them as they are.
-    """
-    size = len(moves)
-    filled = 0
-    for start in starts:
-        if nodes[start, BEFORE] != BEGIN:
-            continue
-        first = filled
-        site = np.int64(start)
-        while distance[site] != 0:
-            following = np.int64(nodes[site, AFTER]) - 1
-            if following >= size:
-                following = np.int64(nodes[following, AFTER]) - 1
-            for k in range(len(cost) - 1, -1, -1):  # of two moves to one place the first is the cheaper
-                if moves[site] >> k & 1 and site + offset[site & 1, k] == following:
-                    direction[site] = 1 << k
-            sites[filled] = site
-            filled += 1
-            site = following
-        for i in range(filled - 1, first - 1, -1):
-            k = trailing_zeros(direction[sites[i]])
-            distance[sites[i]] = cost[k] + distance[sites[i] + offset[sites[i] & 1, k]]
-    for i in range(filled):
-        site = sites[i]
-        for k in range(len(cost)):
-            beside = site + offset[site & 1, k]
-            for j in range(len(cost)):
-                if beside + offset[beside & 1, j] == site:
-                    moves[beside] &= ~np.uint16(1 << j)
-    return filled
+            _expect(state[FOUND], demand, streets.distance)
+    return False
