@@ -22,7 +22,7 @@ from trihex.pictures.palette import BARRIER, DESTINATION, FREE, INK, MOVING, SER
 from trihex.pictures.png import paint, write_png
 from trihex.pictures.scene import Key, Lines, Mark, Ramp, Scene, colour_rows, scale_for
 from trihex.pictures.svg import svg_of
-from trihex.plans import Plan
+from trihex.plans import Plan, visits_of
 from trihex.record import Record
 
 PICTURE_SUFFIXES = (".png", ".svg")
@@ -252,7 +252,7 @@ def picture_of_plan(
             marks += make.robot_marks(scenario, np.array([robot]), colour, scale)
         keys += [Key("disc", MOVING, "robot and its path")] if arrived.size else []
     else:
-        visits = make.visits_of(plan)
+        visits = visits_of(plan)
         most = max(1, int(visits[cells == first].max(initial=0)))
         is_shaded = (visits > 0) & (cells == first)
         cells[is_shaded] = np.rint(np.log(visits[is_shaded]) * ((_SHADES - 1) / max(np.log(most), 1e-9)))

@@ -14,9 +14,8 @@ from trihex.areas import Scenario
 from trihex.errors import FormatError, MissingExtraError, check_choice
 from trihex.files import new_file, read_bytes
 from trihex.formats.plans.csv import HEADER, plan_of_table, words_of_actions
-from trihex.formats.tracks.tracks import cells_of_rows
 from trihex.kernels.codes import JUMP, WAIT
-from trihex.plans import Plan
+from trihex.plans import Plan, cells_of_rows
 
 # What a file may unpack to: rows take 48 bytes and more while they are read.
 MAX_ROWS = 10**8

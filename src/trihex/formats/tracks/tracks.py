@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.errors import FormatError
-from trihex.plans import Plan
+from trihex.plans import Plan, cells_of_rows
 from trihex.record import Record, read_only
 
 
@@ -105,17 +105,6 @@ def make_tracks(plan: Plan, speed: float = 1.0) -> Tracks:
         _yaw(x, y, first_row, frame.yaw),
         plan.arrived,
     )
-
-
-def cells_of_rows(plan: Plan, first_row: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return the cell number of each robot at each step, robot by robot; robot r from row ``first_row[r]`` on."""
-    cells = np.empty(first_row[-1], dtype=np.int64)
-    length = np.diff(first_row) - 1
-    for step, cell_of_robot in enumerate(plan.cells_by_step()):
-        acts = length >= step
-        cells[first_row[:-1][acts] + step] = cell_of_robot[acts]
-    cells[first_row[1:] - 1] = plan.last_cell_of_robot  # cells_by_step has -1 for those that have arrived
-    return cells
 
 
 def _yaw(

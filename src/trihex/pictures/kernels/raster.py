@@ -11,8 +11,7 @@ import math
 import numpy as np
 from numba import njit, types
 
-from trihex.kernels.codes import JUMP, WAIT
-from trihex.kernels.signatures import IN_I32, IN_I64, IN_U8, OUT_I64, TABLE_I32, _array
+from trihex.kernels.signatures import IN_U8, _array
 
 IMAGE = types.Array(types.uint8, 3, "C")
 CELLS = types.Array(types.uint8, 2, "C", readonly=True)
@@ -125,26 +124,3 @@ def look_up(image, index_of_colour, out):
         for j in range(out.shape[1]):
             key = (image[i, j, 0] >> 3) << 10 | (image[i, j, 1] >> 3) << 5 | image[i, j, 2] >> 3
             out[i, j] = index_of_colour[key]
-
-
-@njit(
-    types.int64(IN_I32, IN_U8, IN_I64, TABLE_I32, IN_I64, IN_I32, types.int64, types.int64, types.int64, OUT_I64),
-    cache=True,
-    nogil=True,
-)  # fmt: skip
-def count_visits(start, actions, first_action, offset, jump_at, jump_to, jump, first, last, visits):
-    """Add to `visits` (by site) the start and every move of robots first..last-1; return the next jump."""
-    for r in range(first, last):
-        at = start[r]
-        visits[at] += 1
-        for i in range(first_action[r], first_action[r + 1]):
-            action = actions[i]
-            if action == WAIT:
-                continue
-            if action == JUMP:
-                at = jump_to[jump]
-                jump += 1
-            else:
-                at += offset[at & 1, action]
-            visits[at] += 1
-    return jump
