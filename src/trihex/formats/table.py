@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from difflib import get_close_matches
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from trihex.errors import FormatError
+
+if TYPE_CHECKING:
+    from trihex.formats.kernels.table_text import Spelling
 
 # Rows read in one call of the kernel, some 10 ms: Ctrl-C works in between.
 _BUDGET = 200_000
@@ -48,13 +52,13 @@ def parse_table(
         raise FormatError(f"{path}: line 1: the header must be {header!r}, not {first.strip().decode()[:80]!r}")
     names = header.split(",")
     known = [word for column in words.values() for word in column]
-    letters, first_letter = letters_of_words(known)
+    spelling = spelling_of(known)
     text = np.frombuffer(body.rstrip(b"\r\n") + b"\n" if body.strip() else b"", dtype=np.uint8)
     table = np.empty((len(names), np.count_nonzero(text == ord("\n"))), dtype=np.int64)
     is_word = np.array([name in words for name in names])
     state = np.zeros(4, dtype=np.int64)
     while state[1] < table.shape[1]:
-        wrong = table_text.parse_table(text, is_word, letters, first_letter, _BUDGET, state, table)
+        wrong = table_text.parse_table(text, is_word, spelling, _BUDGET, state, table)
         if wrong:
             _, row, column, begin = state.tolist()
             line, _, _ = body[begin:].partition(b"\n")
@@ -83,7 +87,11 @@ def _complain(where: str, wrong: int, names: list[str], column: int, line: str, 
     raise FormatError(f"{where}: {name} must be one of {', '.join(dict.fromkeys(words))}, not {value!r}{hint}")
 
 
-def letters_of_words(words: list[str]) -> tuple[NDArray[np.uint8], NDArray[np.int64]]:
-    """Return all letters of ASCII `words` in one array, and where each word begins, as kernels take them."""
+def spelling_of(words: list[str]) -> Spelling:
+    """Return ASCII words as kernels take them."""
+    from trihex.formats.kernels.table_text import Spelling
+    from trihex.kernels.signatures import given
+
     letters = np.frombuffer("".join(words).encode(), dtype=np.uint8)
-    return letters, np.cumsum([0, *map(len, words)], dtype=np.int64)
+    own: Spelling = given(Spelling, letters=letters, first=np.cumsum([0, *map(len, words)], dtype=np.int64))
+    return own

@@ -61,7 +61,8 @@ def make_playback(plan: Plan, n_scheme: NScheme) -> Playback:
     kernels.count_steps(
         start,
         actions_of(plan),
-        given(kernels.Prices, move=scenario.area.tessellation.cost_of_direction, wait=scenario.waiting_cost),
+        scenario.area.tessellation.cost_of_direction,
+        scenario.waiting_cost,
         plan.arrived,
         n_scheme.distance_of_site,
         given(kernels.StepSums, moving=moving, waiting=waiting, arriving=arriving, spent=spent, lost=lost),

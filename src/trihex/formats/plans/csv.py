@@ -12,9 +12,9 @@ from trihex.areas import Scenario, Tessellation
 from trihex.errors import FormatError
 from trihex.files import check_text, new_file, read_bytes
 from trihex.formats.starts.csv import check_inside
-from trihex.formats.table import letters_of_words, parse_table
+from trihex.formats.table import parse_table, spelling_of
 from trihex.kernels.codes import JUMP, WAIT
-from trihex.plans import Plan
+from trihex.plans import Plan, actions_of
 
 HEADER = "robot,step,x,y,action,time"
 _BUFFER = 4 << 20  # bytes that the kernel fills in one call, some 10 ms
@@ -35,28 +35,25 @@ def write_plan_csv(
     its row of step 0 only. Area, destinations and rules are not kept: whoever reads the file must name them again.
     """
     from trihex.formats.kernels import table_text
+    from trihex.kernels.signatures import given
 
-    area, tessellation = plan.scenario.area, plan.scenario.area.tessellation
-    state = np.zeros(5, dtype=np.int64)
+    layout, tessellation = plan.scenario.area.layout, plan.scenario.area.tessellation
+    table = given(
+        table_text.PlanTable,
+        start=layout.cell_to_site(plan.scenario.robots),
+        cost=tessellation.cost_of_direction,
+        waiting_cost=plan.scenario.waiting_cost,
+        origin=layout.origin,
+        pitch=layout.pitch,
+    )
+    actions, spelling = actions_of(plan), spelling_of(words_of_actions(tessellation))
+    state = np.zeros(4, dtype=np.int64)
     text = np.empty(_BUFFER, dtype=np.uint8)
     with new_file(path) as part, open(part, "wb") as file:
         file.write(f"{HEADER}\n".encode())
         length = -1
         while length:
-            length = table_text.write_plan_rows(
-                area.layout.cell_to_site(plan.scenario.robots),
-                plan.actions,
-                plan.first_action,
-                area.layout.offset_of_direction,
-                tessellation.cost_of_direction,
-                plan.scenario.waiting_cost,
-                *plan.jump_tables,
-                area.layout.origin,
-                area.layout.pitch,
-                *letters_of_words(words_of_actions(tessellation)),
-                state,
-                text,
-            )
+            length = table_text.write_plan_rows(table, actions, spelling, state, text)
             file.write(text[:length].data)
             if progress is not None:
                 progress(int(state[0]), plan.scenario.robot_count)

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from trihex.areas import Area, Frame, Scenario, Tessellation
 from trihex.errors import FormatError
 from trihex.files import new_file, read_bytes
-from trihex.plans import Plan
+from trihex.plans import Plan, actions_of
 
 VERSION = 1
 # What a file may unpack to: an area of 10^9 cells and as many robot-steps.
@@ -216,17 +216,8 @@ def _check_inside(plan: Plan, path: object) -> None:
     from trihex.formats.kernels.escape import find_escape
 
     layout = plan.scenario.area.layout
-    escape = find_escape(
-        layout.cell_to_site(plan.scenario.robots),
-        plan.actions,
-        plan.first_action,
-        layout.offset_of_direction,
-        *plan.jump_tables,
-        layout.origin,
-        layout.pitch,
-        layout.height,
-        layout.width,
-    )
+    start = layout.cell_to_site(plan.scenario.robots)
+    escape = find_escape(start, actions_of(plan), layout.origin, layout.pitch, layout.height, layout.width)
     if escape >= 0:
         robot = int(np.searchsorted(plan.first_action, escape, side="right")) - 1
         step = escape - int(plan.first_action[robot]) + 1

@@ -9,13 +9,6 @@ from trihex.kernels.codes import JUMP, NOT_REACHED, WAIT
 from trihex.kernels.signatures import IN_BOOL, IN_I32, OUT_I64, declared, kernel
 
 
-class Prices(NamedTuple):
-    """What actions cost; a jump costs nothing."""
-
-    move: IN_I32  # by direction
-    wait: types.int64
-
-
 class StepSums(NamedTuple):
     """Sums over all robots by step, from 0 to the last."""
 
@@ -26,12 +19,12 @@ class StepSums(NamedTuple):
     lost: OUT_I64  # how much of that brings them no nearer
 
 
-@kernel(types.void(IN_I32, ACTIONS, declared(Prices), IN_BOOL, IN_I32, declared(StepSums)))
-def count_steps(start, actions, prices, arrived, distance, sums):
+@kernel(types.void(IN_I32, ACTIONS, IN_I32, types.int64, IN_BOOL, IN_I32, declared(StepSums)))
+def count_steps(start, actions, cost, waiting_cost, arrived, distance, sums):
     """Add up for each step who moves, waits and arrives, the time spent, and how much of it was no way forward.
 
-    The counts are of all robots, the times of those that arrive only. `distance` is the N-scheme by site; an action
-    loses what it costs less what it brings its robot nearer.
+    The counts are of all robots, the times of those that arrive only. `cost` is that of each direction, `distance`
+    the N-scheme by site; an action loses what it costs less what it brings its robot nearer; a jump costs nothing.
     """
     for robot in range(len(start)):
         site, arrives = start[robot], arrived[robot]
@@ -40,13 +33,13 @@ def count_steps(start, actions, prices, arrived, distance, sums):
             step = i - first + 1
             action = actions.action[i]
             to = site
-            price = prices.wait
+            price = waiting_cost
             if action == WAIT:
                 sums.waiting[step] += 1
             else:
                 sums.moving[step] += 1
                 to = site_after(site, i, actions)
-                price = 0 if action == JUMP else prices.move[action]
+                price = 0 if action == JUMP else cost[action]
             if arrives:
                 sums.spent[step] += price
                 sums.lost[step] += price
