@@ -10,6 +10,7 @@ from typing import IO, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from trihex.areas import Ground
 from trihex.pictures.palette import GROUND, PAGE, Colour
 from trihex.pictures.scene import OUTLINES_FROM, Discs, Lines, Scene, Texts
 from trihex.pictures.sheet import RAMP_WIDTH, Sheet, Words, arrange, font_of
@@ -99,14 +100,13 @@ def _body(scene: Scene, width: int, height: int, larger: int) -> NDArray[np.uint
     for first in range(0, height, rows):
         raster.shade(paint, lattice, sampling, first, min(height, first + rows), image)
     if scene.ground is not None:
-        image[ground_of_body(scene, width, height, scale)] = GROUND
+        image[ground_of_body(scene.ground, width, height, scale)] = GROUND
     return image
 
 
-def ground_of_body(scene: Scene, width: int, height: int, scale: float) -> NDArray[np.bool_]:
+def ground_of_body(ground: Ground, width: int, height: int, scale: float) -> NDArray[np.bool_]:
     """Return which pixels of the cells show something that stands in the world."""
-    assert scene.ground is not None
-    return scene.ground.occupied_at((np.arange(width) + 0.5) / scale, ((np.arange(height) + 0.5) / scale)[:, None])
+    return ground.occupied_at((np.arange(width) + 0.5) / scale, ((np.arange(height) + 0.5) / scale)[:, None])
 
 
 def _body_with_lines(scene: Scene, sheet: Sheet, lines: list[Lines]) -> NDArray[np.uint8]:
