@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from trihex.areas import Area
 from trihex.errors import FormatError
 from trihex.plans import Plan, cells_of_rows
 from trihex.record import Record, read_only
@@ -21,6 +22,7 @@ class Tracks(Record):
 
     Attributes
     ----------
+    area : Area
     seconds_per_step : float
     first_row : int64 array, shape (robots + 1,)
     step : int64 array, shape (rows,)
@@ -32,6 +34,7 @@ class Tracks(Record):
     arrived : bool array, shape (robots,)
     """
 
+    area: Area
     seconds_per_step: float
     first_row: NDArray[np.int64]
     step: NDArray[np.int64]
@@ -97,6 +100,7 @@ def make_tracks(plan: Plan, speed: float = 1.0) -> Tracks:
     cells = cells_of_rows(plan, first_row)
     x, y = area.cell_to_metres(cells)
     return Tracks(
+        area,
         area.tessellation.longest_move * frame.cell_size / speed,
         first_row,
         np.arange(cells.size) - np.repeat(first_row[:-1], length + 1),
