@@ -41,17 +41,6 @@ def read_bytes(path: str | os.PathLike[str], limit: int = MAX_BYTES) -> bytes:
     return content
 
 
-def check_text(content: bytes, path: str | os.PathLike[str]) -> bytes:
-    """Return `content` without a byte order mark if it is UTF-8 text, else raise FormatError."""
-    if not content.isascii():
-        try:
-            content.decode("utf-8")
-        except UnicodeDecodeError as error:
-            byte = f"byte 0x{content[error.start]:02x} at position {error.start}"
-            raise FormatError(f"{path}: must be UTF-8 text; {byte} is none") from None
-    return content.removeprefix(b"\xef\xbb\xbf")
-
-
 def suffix_of(path: str | os.PathLike[str], suffixes: Iterable[str], kind: str) -> str:
     """Return the suffix of `path` if it is one of `suffixes`, else raise FormatError naming the `kind` of file."""
     return check_choice(f"{path}: the suffix of {kind}", Path(path).suffix.lower(), suffixes, FormatError)

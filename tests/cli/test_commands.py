@@ -279,7 +279,7 @@ def test_nothing_is_left_half_written(folder, monkeypatch, error):
     def fail(*_):
         raise error
 
-    monkeypatch.setattr("trihex.formats.plans.csv.letters_of_words", fail)
+    monkeypatch.setattr("trihex.formats.plans.csv.spelling_of", fail)
     before = set(folder.iterdir())
     status, message = {
         "type": (130, "interrupted; nothing is left half-written"),
@@ -315,7 +315,7 @@ def test_interrupt_of_a_process(folder):
 def test_termination_leaves_nothing_behind(folder):
     code = (
         "import os, signal, trihex.formats.plans.csv as plan_csv\n"
-        "plan_csv.letters_of_words = lambda *_: os.kill(os.getpid(), signal.SIGTERM)\n"
+        "plan_csv.spelling_of = lambda *_: os.kill(os.getpid(), signal.SIGTERM)\n"
         "from trihex.cli import main\n"
         "main(['plan', 'world.txt', '--planner', 'greedy', '--out', 'p.csv'])"
     )

@@ -213,7 +213,7 @@ def test_damaged_npz(tmp_path, entries):
 
 
 def test_a_bomb_is_refused_before_it_is_unpacked(tmp_path, entries, monkeypatch):
-    monkeypatch.setattr("trihex.formats.plans.npz.MAX_UNPACKED", 2**20)
+    monkeypatch.setattr("trihex.formats.archive.MAX_UNPACKED", 2**20)
     entries["barriers"] = np.zeros((1025, 1024), dtype=bool)
     np.savez_compressed(tmp_path / "bomb.npz", **entries)
     with pytest.raises(FormatError, match="must unpack to at most 1048576 bytes"):

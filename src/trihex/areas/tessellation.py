@@ -325,8 +325,12 @@ class Layout(Record):
 
     def site_to_cell(self, site: NDArray[np.int32]) -> NDArray[np.int64]:
         """Return the numbers of the cells at sites; the inverse of `cell_to_site`."""
-        y, x = np.divmod(site.astype(np.int64) - self.origin, self.pitch)
-        return np.asarray(y * self.width + x)
+        cell = site.astype(np.int64)
+        cell -= self.origin
+        row = cell // self.pitch
+        row *= self.pitch - self.width
+        cell -= row  # all in place: with new arrays it takes five times as long
+        return np.asarray(cell)
 
     def cells_of(self, sites: NDArray[np.generic]) -> NDArray[np.generic]:
         """Return the part of a padded array that belongs to cells, as a read-only (height, width) view."""

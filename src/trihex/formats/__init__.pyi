@@ -15,6 +15,9 @@ from .recognise import (
     NAME_OF_FORMAT as NAME_OF_FORMAT,
     format_of as format_of,
 )
+from .registry import (
+    FORMATS as FORMATS,
+)
 from .report_json import (
     report_text as report_text,
     write_report as write_report,
@@ -33,9 +36,12 @@ from .starts.csv import (
 from .starts.starts import (
     read_starts as read_starts,
 )
+from .text import (
+    check_text as check_text,
+)
 from .toml import (
     complaint as complaint,
-    parse_toml as parse_toml,
+    read_toml as read_toml,
 )
 from .values_csv import (
     write_values as write_values,

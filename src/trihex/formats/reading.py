@@ -7,19 +7,14 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from trihex.areas import Area, Frame, Scenario, Tessellation
+from trihex.areas import Area, Scenario, Tessellation
 from trihex.areas.coverage import Progress
 from trihex.errors import FormatError
-from trihex.files import check_text, read_bytes
-from trihex.formats.areas.letters import parse_letters
-from trihex.formats.areas.movingai import parse_movingai
+from trihex.files import read_bytes
 from trihex.formats.areas.options import AreaOptions
 from trihex.formats.draft import Draft, draft_of
-from trihex.formats.plans.csv import read_plan_csv
-from trihex.formats.plans.npz import read_plan_npz
-from trihex.formats.recognise import NAME_OF_FORMAT, Format, format_of
-from trihex.formats.starts.csv import write_starts as write_starts
-from trihex.formats.starts.starts import read_starts as read_starts
+from trihex.formats.recognise import format_of
+from trihex.formats.registry import FORMATS, Format
 from trihex.plans import Plan
 
 
@@ -56,20 +51,18 @@ def read_draft(
         If it cannot be read.
     """
     content = read_bytes(path)
-    form = format_of(content, path)
-    draft: Draft
+    form = FORMATS[format_of(content, path)]
     given = {name: value for name, value in options.items() if value is not None}
-    if form in ("npz", "scenario") and given:
-        raise FormatError(f"{path}: says itself how its area lies in the world; {', '.join(given)} cannot change it")
-    if form == "npz":
-        draft = draft_of(read_plan_npz(path, content).scenario)
-    elif form == "scenario":
-        from trihex.formats.scenarios.toml import read_scenario_toml
-
-        draft = read_scenario_toml(path, _read_area_draft, content)
-    else:
+    if not form.brings_scenario:
         wanted = _wanted(Tessellation("hexagonal"), tessellation, neighbourhood, costs)
         return _parse_area(content, form, path, AreaOptions(wanted, **given), progress)
+    if given:
+        raise FormatError(f"{path}: says itself how its area lies in the world; {', '.join(given)} cannot change it")
+    draft: Draft
+    if form.holds == "plan":
+        draft = draft_of(form.parse(content, path).scenario)
+    else:
+        draft = form.parse(content, path, _read_area_draft)
     own = draft.area.tessellation
     wanted = _wanted(own, tessellation, neighbourhood, costs)
     return draft if wanted == own else replace(draft, area=draft.area.with_tessellation(wanted))
@@ -86,41 +79,16 @@ def _wanted(
 
 def _read_area_draft(path: Path, options: AreaOptions) -> Draft:
     content = read_bytes(path)
-    return _parse_area(content, format_of(content, path), path, options, None)
+    return _parse_area(content, FORMATS[format_of(content, path)], path, options, None)
 
 
 def _parse_area(
     content: bytes, form: Format, path: str | os.PathLike[str], options: AreaOptions, progress: Progress | None
 ) -> Draft:
-    """Return the draft of an area; parsers of real places are imported where they are used."""
-    if form == "ros":
-        from trihex.formats.areas.ros import parse_ros
-
-        return parse_ros(content, path, options, progress)
-    if form == "image":
-        from trihex.formats.areas.image import parse_image
-
-        return parse_image(content, path, options, progress)
-    if form == "geojson":
-        from trihex.formats.areas.geojson import parse_geojson
-
-        return parse_geojson(content, path, options, progress)
-    if form == "wkt":
-        from trihex.formats.areas.wkt import parse_wkt
-
-        return parse_wkt(content, path, options, progress)
-    if form not in ("movingai", "letters"):
-        raise FormatError(f"{path}: must hold an area, not {NAME_OF_FORMAT[form]}")
-    if options.robot_radius:
-        raise FormatError(f"{path}: has one cell for each letter; robot_radius needs a place with walls in metres")
-    text, tessellation = check_text(content, path), options.tessellation
-    if form == "movingai":
-        draft = Draft(Area(tessellation, parse_movingai(text, path), Path(path).stem))
-    else:
-        draft = parse_letters(text, path, tessellation)
-    if options.cell_size is None:
-        return draft
-    return replace(draft, area=replace(draft.area, frame=Frame(options.cell_size)))
+    if form.holds != "area":
+        raise FormatError(f"{path}: must hold an area, not {form.words}")
+    draft: Draft = form.parse(content, path, options, progress)
+    return draft
 
 
 def read_area(
@@ -173,15 +141,10 @@ def read_plan(
         If it cannot be read.
     """
     content = read_bytes(path)
-    form = format_of(content, path)
-    if form == "npz":
-        return read_plan_npz(path, content)
-    if form not in ("plan", "parquet"):
-        raise FormatError(f"{path}: must hold a plan (.npz, .csv or .parquet), not {NAME_OF_FORMAT[form]}")
-    if scenario is None:
+    form = FORMATS[format_of(content, path)]
+    if form.holds != "plan":
+        raise FormatError(f"{path}: must hold a plan (.npz, .csv or .parquet), not {form.words}")
+    if scenario is None and not form.brings_scenario:
         raise FormatError(f"{path}: does not hold its area; name the area, destinations and rules as well")
-    if form == "parquet":
-        from trihex.formats.plans.parquet import read_plan_parquet
-
-        return read_plan_parquet(path, scenario, content)
-    return read_plan_csv(path, scenario, content, progress=progress)
+    plan: Plan = form.parse(content, path, scenario, progress)
+    return plan

@@ -4,18 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from difflib import get_close_matches
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from trihex.areas import Area
 from trihex.errors import FormatError
+from trihex.formats.text import Text
+
+if TYPE_CHECKING:
+    from trihex.formats.kernels.table_text import Spelling
 
 # Rows read in one call of the kernel, some 10 ms: Ctrl-C works in between.
 _BUDGET = 200_000
 
 
 def parse_table(
-    content: bytes,
+    text: Text,
     path: object,
     header: str,
     words: dict[str, list[str]],
@@ -25,8 +31,8 @@ def parse_table(
 
     Parameters
     ----------
-    content : bytes
-        UTF-8 text; lines end in LF or CRLF.
+    text : Text
+        Lines end in LF or CRLF.
     path : path
         For messages.
     header : str
@@ -43,18 +49,18 @@ def parse_table(
     """
     from trihex.formats.kernels import table_text
 
-    first, _, body = content.partition(b"\n")
+    first, _, body = text.partition(b"\n")
     if first.strip() != header.encode():
         raise FormatError(f"{path}: line 1: the header must be {header!r}, not {first.strip().decode()[:80]!r}")
     names = header.split(",")
     known = [word for column in words.values() for word in column]
-    letters, first_letter = letters_of_words(known)
-    text = np.frombuffer(body.rstrip(b"\r\n") + b"\n" if body.strip() else b"", dtype=np.uint8)
-    table = np.empty((len(names), np.count_nonzero(text == ord("\n"))), dtype=np.int64)
+    spelling = spelling_of(known)
+    letters = np.frombuffer(body.rstrip(b"\r\n") + b"\n" if body.strip() else b"", dtype=np.uint8)
+    table = np.empty((len(names), np.count_nonzero(letters == ord("\n"))), dtype=np.int64)
     is_word = np.array([name in words for name in names])
     state = np.zeros(4, dtype=np.int64)
     while state[1] < table.shape[1]:
-        wrong = table_text.parse_table(text, is_word, letters, first_letter, _BUDGET, state, table)
+        wrong = table_text.parse_table(letters, is_word, spelling, _BUDGET, state, table)
         if wrong:
             _, row, column, begin = state.tolist()
             line, _, _ = body[begin:].partition(b"\n")
@@ -83,7 +89,22 @@ def _complain(where: str, wrong: int, names: list[str], column: int, line: str, 
     raise FormatError(f"{where}: {name} must be one of {', '.join(dict.fromkeys(words))}, not {value!r}{hint}")
 
 
-def letters_of_words(words: list[str]) -> tuple[NDArray[np.uint8], NDArray[np.int64]]:
-    """Return all letters of ASCII `words` in one array, and where each word begins, as kernels take them."""
+def check_inside(x: NDArray[np.int64], y: NDArray[np.int64], area: Area, path: object) -> None:
+    """Raise FormatError for the first line of a table whose cell (x, y) lies outside `area`."""
+    outside = (x < 0) | (y < 0) | (x >= area.width) | (y >= area.height)
+    if outside.any():
+        row = int(np.argmax(outside))
+        raise FormatError(
+            f"{path}: line {row + 2}: cell ({x[row]}, {y[row]}) lies outside the area: "
+            f"x is 0..{area.width - 1}, y is 0..{area.height - 1}"
+        )
+
+
+def spelling_of(words: list[str]) -> Spelling:
+    """Return ASCII words as kernels take them."""
+    from trihex.formats.kernels.table_text import Spelling
+    from trihex.kernels.signatures import given
+
     letters = np.frombuffer("".join(words).encode(), dtype=np.uint8)
-    return letters, np.cumsum([0, *map(len, words)], dtype=np.int64)
+    own: Spelling = given(Spelling, letters=letters, first=np.cumsum([0, *map(len, words)], dtype=np.int64))
+    return own

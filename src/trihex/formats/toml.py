@@ -8,9 +8,9 @@ import tomllib
 from typing import Any
 
 from trihex.errors import FormatError
-from trihex.files import check_text
+from trihex.formats.registry import MAX_TOML
+from trihex.formats.text import Text, read_text
 
-MAX_BYTES = 2**26  # tomllib takes some 30 times as much while it reads
 # What is not closed ends with the file or the line, so that each byte is looked at once.
 _QUOTED = re.compile(
     rb""" \"{3}.*?(?:\"{3}|\Z) | '{3}.*?(?:'{3}|\Z) | "(?:\\.|[^"\\\n])*"? | '[^'\n]*'? | \#[^\n]* """,
@@ -20,17 +20,21 @@ _DEEPEST = 50
 _MOST_MISTAKES = 50
 
 
-def parse_toml(content: bytes, path: str | os.PathLike[str]) -> dict[str, Any]:
+def read_toml(path: str | os.PathLike[str]) -> dict[str, Any]:
     """Return the tables of a TOML file.
 
     Raises
     ------
     FormatError
-        If the content is too long, no UTF-8, nested too deeply or no TOML.
+        If the file is too long, no UTF-8, nested too deeply or no TOML.
+    OSError
+        If it cannot be read.
     """
-    if len(content) > MAX_BYTES:
-        raise FormatError(f"{path}: must be at most {MAX_BYTES} bytes long, not {len(content)}")
-    text = check_text(content, path)
+    return parse_toml(read_text(path, MAX_TOML), path)
+
+
+def parse_toml(text: Text, path: str | os.PathLike[str]) -> dict[str, Any]:
+    """Return the tables of the text of a TOML file; see `read_toml`."""
     # A key of 100 000 parts takes tomllib 6 GB and minutes, because it keeps each beginning of it.
     if b"." * _DEEPEST in re.sub(rb"[\w \t-]+", b"", _QUOTED.sub(b"", text)):
         raise FormatError(f"{path}: is nested too deeply")

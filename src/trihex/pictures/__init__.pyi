@@ -1,14 +1,17 @@
-from .movie import (
+from .area_picture import (
+    picture_of_area as picture_of_area,
+)
+from .film import (
     MOVIE_SUFFIXES as MOVIE_SUFFIXES,
+)
+from .movie import (
     write_animation as write_animation,
 )
 from .picture import (
     PICTURE_SUFFIXES as PICTURE_SUFFIXES,
     Picture as Picture,
-    picture_of_area as picture_of_area,
-    picture_of_d_scheme as picture_of_d_scheme,
-    picture_of_generation as picture_of_generation,
-    picture_of_n_scheme as picture_of_n_scheme,
+)
+from .plan_picture import (
     picture_of_plan as picture_of_plan,
 )
 from .plotting import (
@@ -29,4 +32,9 @@ from .run_picture import (
     FOG as FOG,
     FOG_BARRIER as FOG_BARRIER,
     picture_of_run as picture_of_run,
+)
+from .scheme_picture import (
+    picture_of_d_scheme as picture_of_d_scheme,
+    picture_of_generation as picture_of_generation,
+    picture_of_n_scheme as picture_of_n_scheme,
 )

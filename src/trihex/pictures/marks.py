@@ -111,24 +111,6 @@ def compass_of(area: Area, directions: NDArray[np.uint16], count: int) -> NDArra
     return np.asarray(index[area.tessellation.orientation_of_cell(x, y), directions])
 
 
-def visits_of(plan: Plan) -> NDArray[np.int64]:
-    """Return how many robots start in or enter each cell, shape (height, width)."""
-    from trihex.pictures.kernels.raster import count_visits
-
-    scenario, layout = plan.scenario, plan.scenario.area.layout
-    visits = np.zeros(layout.size, dtype=np.int64)
-    start, first, jump = layout.cell_to_site(scenario.robots), plan.first_action, 0
-    robot, robots = 0, scenario.robot_count
-    while robot < robots:  # some 10^7 actions a call
-        last = max(robot + 1, int(np.searchsorted(first, first[robot] + 10_000_000)) - 1)
-        last = min(robots, last, robot + 1_000_000)
-        jump = count_visits(
-            start, plan.actions, first, layout.offset_of_direction, *plan.jump_tables, jump, robot, last, visits
-        )
-        robot = last
-    return layout.cells_of(visits)  # type: ignore[return-value]
-
-
 def robot_paths(plan: Plan) -> tuple[NDArray[np.float64], ...]:
     """Return the way of each robot, shape (points, 2), each a little aside, so that paths in one cell do not hide."""
     area = plan.scenario.area

@@ -3,34 +3,23 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator
-from contextlib import closing
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.errors import PlanError
-from trihex.files import new_file, suffix_of
-from trihex.pictures.gif import GifWriter
+from trihex.pictures.area_picture import picture_of_area
+from trihex.pictures.film import MOST_SIDE, Film, Groups, Progress, write_film
 from trihex.pictures.marks import LETTERS, LETTERS_FROM
-from trihex.pictures.mp4 import Mp4Writer, import_av
-from trihex.pictures.palette import FINAL, MOVING, STRANDED, WAITING, Colour
-from trihex.pictures.picture import picture_of_area
-from trihex.pictures.png import paint, paint_disc_marks, paint_discs, write_words
+from trihex.pictures.palette import FINAL, MOVING, STRANDED, WAITING
+from trihex.pictures.png import paint_disc_marks, write_words
 from trihex.pictures.scene import Key, Scene, centres_of, ink_on, scale_for
-from trihex.pictures.sheet import MARGIN, TEXT_SIZE, Sheet, Words, arrange, width_of
+from trihex.pictures.sheet import Words
 from trihex.plans import Plan, follow
 
-MOVIE_SUFFIXES = (".gif", ".mp4")
-Progress: TypeAlias = Callable[[int, int], None]
-# The longest side of a movie unless the caller names a width.
-_SIDE, _MOST_SIDE = 600.0, 900.0
-_MOST_SUBSTEPS = 8
-_HOLD = 1500  # milliseconds for which the last frame stays
-_RADIUS, _LEAST_RADIUS = 0.4, 1.7  # of robots, in edge steps and in pixels
+_SIDE = 600.0  # the longest side of a movie unless the caller names a width
 
 
 def write_animation(
@@ -79,118 +68,52 @@ def write_animation(
     MissingExtraError
         If an .mp4 is asked for without PyAV.
     """
-    suffix = suffix_of(path, MOVIE_SUFFIXES, "a movie")
-    check_range("frames_per_second", frames_per_second, 1, 50)
-    check_range("max_frames", max_frames, 2, 100_000)
-    if suffix == ".mp4":
-        import_av()
-    film = Film(plan, max_frames, _scene(plan, width, title, clock, legend), clock)
-    # GIF counts in hundredths of a second.
-    milliseconds = 10 * round(100 / frames_per_second)
-    with new_file(path) as part:
-        writer: GifWriter | Mp4Writer
-        if suffix == ".gif":
-            writer = GifWriter(part, film.background, [STRANDED, FINAL, WAITING, MOVING])
-        else:
-            writer = Mp4Writer(part, frames_per_second)
-        with closing(writer):
-            for done, frame in enumerate(film.frames(), 1):
-                writer.add(frame, milliseconds if done < film.pace.frame_count else _HOLD)
-                if progress:
-                    progress(done, film.pace.frame_count)
-
-
-def check_range(parameter: str, value: object, least: int, most: int) -> None:
-    """Raise PlanError unless `value` is a whole number from `least` to `most`."""
-    if isinstance(value, bool) or not isinstance(value, int | np.integer) or not least <= value <= most:
-        raise PlanError(f"{parameter} must be a whole number from {least} to {most}, not {value!r}")
-
-
-def _scene(plan: Plan, width: int | None, title: str | None, clock: bool, legend: bool) -> Scene:
-    """Return what all frames have in common."""
-    area = plan.scenario.area
-    across, _ = area.tessellation.extent(area.height, area.width)
-    pixels = round(scale_for(area, width, _SIDE, _MOST_SIDE) * across)
-    scene = picture_of_area(plan.scenario.with_robots(()), width=max(8, pixels)).scene
-    keys = [Key("disc", MOVING, "moving"), Key("disc", WAITING, "waiting"), Key("disc", FINAL, "arrived")]
-    if not plan.arrived.all():
-        keys.append(Key("disc", STRANDED, "never arrives"))
-    if title is None:
-        title = " of ".join(part for part in (f"Plan ({plan.planner})" if plan.planner else "Plan", area.name) if part)
-    return replace(
-        scene,
-        title=title,
-        subtitle="clock" if clock else "",
-        legend=(*keys, *scene.legend) if legend else (),
-    )
+    write_film(PlanFilm(plan, max_frames, width, title, clock, legend), path, frames_per_second, progress)
 
 
 @dataclass(frozen=True)
-class Pace:
-    """How the steps of a plan or run become at most `max_frames` frames, up to `most_substeps` of them a step."""
-
-    steps: int
-    max_frames: int
-    most_substeps: int
-
-    @property
-    def every(self) -> int:
-        """Steps from one that is shown to the next."""
-        return max(1, -(-self.steps // (self.max_frames - 1)))
-
-    @property
-    def substeps(self) -> int:
-        """Frames from one step that is shown to the next."""
-        return max(1, min(self.most_substeps, (self.max_frames - 1) // max(1, self.steps)))
-
-    @property
-    def frame_count(self) -> int:
-        """Number of frames."""
-        return -(-self.steps // self.every) * self.substeps + 1
-
-
-def arrange_frame(scene: Scene) -> Sheet:
-    """Return where the parts of a frame lie: the place of the subtitle is left to the clock."""
-    sheet = arrange(scene)
-    return replace(sheet, words=tuple(line for line in sheet.words if (line.x, line.y) != sheet.subtitle_at))
-
-
-@dataclass(frozen=True)
-class Film:
-    """The frames of a movie.
-
-    Parameters
-    ----------
-    plan : Plan
-    max_frames : int
-    scene : Scene
-        What all frames have in common; its subtitle gives way to the clock.
-    clock : bool
-    """
+class PlanFilm(Film):
+    """The frames of a movie of a plan; the parameters are those of `write_animation`."""
 
     plan: Plan
     max_frames: int
-    scene: Scene
+    width: int | None
+    title: str | None
     clock: bool
+    legend: bool
+
+    colours = (STRANDED, FINAL, WAITING, MOVING)
+    most_substeps = 8
+
+    @property
+    def steps(self) -> int:
+        """Number of steps that the film tells."""
+        return self.plan.steps
 
     @cached_property
-    def pace(self) -> Pace:
-        """Which steps are shown."""
-        return Pace(self.plan.steps, self.max_frames, _MOST_SUBSTEPS)
-
-    @cached_property
-    def sheet(self) -> Sheet:
-        """Where the parts of a frame lie."""
-        return arrange_frame(self.scene)
-
-    @cached_property
-    def background(self) -> NDArray[np.uint8]:
-        """The picture without robots, shape (height, width, 3)."""
-        return paint(self.scene, self.sheet)
+    def scene(self) -> Scene:
+        """What all frames have in common."""
+        plan, area = self.plan, self.plan.scenario.area
+        across, _ = area.tessellation.extent(area.height, area.width)
+        pixels = round(scale_for(area, self.width, _SIDE, MOST_SIDE) * across)
+        scene = picture_of_area(plan.scenario.with_robots(()), width=max(8, pixels)).scene
+        keys = [Key("disc", MOVING, "moving"), Key("disc", WAITING, "waiting"), Key("disc", FINAL, "arrived")]
+        if not plan.arrived.all():
+            keys.append(Key("disc", STRANDED, "never arrives"))
+        title = self.title
+        if title is None:
+            what = f"Plan ({plan.planner})" if plan.planner else "Plan"
+            title = " of ".join(part for part in (what, area.name) if part)
+        return replace(
+            scene,
+            title=title,
+            subtitle="clock" if self.clock else "",
+            legend=(*keys, *scene.legend) if self.legend else (),
+        )
 
     def frames(self) -> Iterator[NDArray[np.uint8]]:
         """Yield the frames, each of shape (height, width, 3)."""
-        groups: list[tuple[NDArray[np.int64], Colour]] = []
+        groups: Groups = []
         last = -1
         for step, x, y in self._places():
             if step != last:
@@ -214,10 +137,10 @@ class Film:
             step = next_step
         yield step, *centres_of(area, area.layout.site_to_cell(site))
 
-    def _groups(self, step: int) -> list[tuple[NDArray[np.int64], Colour]]:
+    def _groups(self, step: int) -> Groups:
         """Return the robots to be seen after `step` by colour: the sets of the step that follows."""
         plan, arrival = self.plan, self.plan.arrival_step_of_robot
-        groups = [(np.flatnonzero(arrival < 0), STRANDED)]
+        groups: Groups = [(np.flatnonzero(arrival < 0), STRANDED)]
         if step < plan.steps:
             sets = plan.sets_at(step + 1)
             for robots, colour in ((sets.waiting, WAITING), (sets.filled, MOVING)):
@@ -225,19 +148,13 @@ class Film:
         final = np.flatnonzero((arrival >= 0) & (arrival > step - self.pace.every) & (arrival <= step))
         return [*groups, (final, FINAL)]
 
-    def _frame(
-        self,
-        step: int,
-        x: NDArray[np.float64],
-        y: NDArray[np.float64],
-        groups: list[tuple[NDArray[np.int64], Colour]],
-    ) -> NDArray[np.uint8]:
+    def _frame(self, step: int, x: NDArray[np.float64], y: NDArray[np.float64], groups: Groups) -> NDArray[np.uint8]:
         frame, scale = self.background.copy(), self.scene.scale
-        x, y = x * scale + self.sheet.body[0], y * scale + self.sheet.body[1]
+        x, y = self.on_page(x, y)
         for robots, colour in groups:
             if colour == FINAL:  # a crowd must not hide where it goes
                 paint_disc_marks(frame, self.scene, self.sheet)
-            paint_discs(frame, x[robots], y[robots], max(_RADIUS * scale, _LEAST_RADIUS), colour)
+            self.paint_robots(frame, x[robots], y[robots], colour)
         words = []
         if self.plan.scenario.robot_count <= len(LETTERS) and scale >= LETTERS_FROM:
             for robots, colour in groups:
@@ -246,8 +163,5 @@ class Film:
         if self.clock:
             arrival = self.plan.arrival_step_of_robot
             arrived = np.count_nonzero((arrival >= 0) & (arrival <= step))
-            text = f"step {step} of {self.plan.steps}, arrived {arrived} of {arrival.size}"
-            room = self.sheet.width - 2 * MARGIN
-            size = int(min(TEXT_SIZE, TEXT_SIZE * room / width_of(text, TEXT_SIZE)))
-            words.append(Words(*self.sheet.subtitle_at, text, size))
+            words.append(self.clock_words(f"step {step} of {self.plan.steps}, arrived {arrived} of {arrival.size}"))
         return write_words(frame, words)

@@ -15,10 +15,13 @@ import numpy as np
 from trihex.areas import Area, Scenario
 from trihex.errors import MissingExtraError
 from trihex.fields import DScheme, NScheme
+from trihex.pictures.area_picture import picture_of_area
 from trihex.pictures.palette import SERIES, Colour
-from trihex.pictures.picture import Picture, picture_of_area, picture_of_d_scheme, picture_of_n_scheme, picture_of_plan
+from trihex.pictures.picture import Picture
+from trihex.pictures.plan_picture import picture_of_plan
 from trihex.pictures.png import disc_radius, paint
 from trihex.pictures.scene import Discs, Key, Lines, Scene, Texts
+from trihex.pictures.scheme_picture import picture_of_d_scheme, picture_of_n_scheme
 from trihex.plans import Plan
 
 # More cells are drawn as an image: as polygons they would take matplotlib over a second.

@@ -10,6 +10,7 @@ from typing import IO, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from trihex.areas import Ground
 from trihex.pictures.palette import GROUND, PAGE, Colour
 from trihex.pictures.scene import OUTLINES_FROM, Discs, Lines, Scene, Texts
 from trihex.pictures.sheet import RAMP_WIDTH, Sheet, Words, arrange, font_of
@@ -61,6 +62,7 @@ def paint_discs(
 
 def _body(scene: Scene, width: int, height: int, larger: int) -> NDArray[np.uint8]:
     """Return the cells alone; a picture `larger` times as large needs no soft edges, for it will be reduced."""
+    from trihex.kernels.signatures import given
     from trihex.pictures.kernels import raster
 
     tessellation, scale = scene.area.tessellation, scene.scale * larger
@@ -76,33 +78,35 @@ def _body(scene: Scene, width: int, height: int, larger: int) -> NDArray[np.uint
     # Samples that are closer than cells are wide miss no wall.
     samples = 1 if larger > 1 else max(3, min(16, ceil(1.15 / scale)))
     outline = max(0.5, 0.012 * scale) / scale if scene.scale >= OUTLINES_FROM else 0.0
+    page = np.array(PAGE, dtype=np.uint8)
+    paint = given(
+        raster.Paint,
+        colour_of_cell=np.ascontiguousarray(scene.colour_of_cell),
+        rgb=np.vstack([scene.colours, page]),
+        weight=weight,
+    )
+    first_x, first_y = np.array(tessellation.centre_of_cell(0, 0)).reshape(2).tolist()
+    lattice = given(
+        raster.Lattice,
+        step=np.ascontiguousarray(step),
+        unit=np.ascontiguousarray(unit),
+        pitch=scene.area.layout.pitch,
+        first_x=first_x,
+        first_y=first_y,
+    )
+    sampling = given(raster.Sampling, scale=scale, samples=samples, outline=outline)
     image = np.empty((height, width, 3), dtype=np.uint8)
     rows = max(1, _BUDGET // (width * samples**2))
     for first in range(0, height, rows):
-        raster.shade(
-            np.ascontiguousarray(scene.colour_of_cell),
-            np.vstack([scene.colours, np.array(PAGE, dtype=np.uint8)]),
-            weight,
-            np.ascontiguousarray(step),
-            np.ascontiguousarray(unit),
-            scene.area.layout.pitch,
-            np.array(tessellation.centre_of_cell(0, 0)).reshape(2),
-            scale,
-            samples,
-            outline,
-            first,
-            min(height, first + rows),
-            image,
-        )
+        raster.shade(paint, lattice, sampling, first, min(height, first + rows), image)
     if scene.ground is not None:
-        image[ground_of_body(scene, width, height, scale)] = GROUND
+        image[ground_of_body(scene.ground, width, height, scale)] = GROUND
     return image
 
 
-def ground_of_body(scene: Scene, width: int, height: int, scale: float) -> NDArray[np.bool_]:
+def ground_of_body(ground: Ground, width: int, height: int, scale: float) -> NDArray[np.bool_]:
     """Return which pixels of the cells show something that stands in the world."""
-    assert scene.ground is not None
-    return scene.ground.occupied_at((np.arange(width) + 0.5) / scale, ((np.arange(height) + 0.5) / scale)[:, None])
+    return ground.occupied_at((np.arange(width) + 0.5) / scale, ((np.arange(height) + 0.5) / scale)[:, None])
 
 
 def _body_with_lines(scene: Scene, sheet: Sheet, lines: list[Lines]) -> NDArray[np.uint8]:

@@ -4,31 +4,23 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from contextlib import closing
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.files import new_file, suffix_of
 from trihex.kernels.codes import LATE, WAIT
 from trihex.pictures import marks as make
-from trihex.pictures.gif import GifWriter
-from trihex.pictures.movie import MOVIE_SUFFIXES as SUFFIXES, Pace, Progress, arrange_frame, check_range
-from trihex.pictures.mp4 import Mp4Writer, import_av
-from trihex.pictures.palette import DESTINATION, MOVING, PAGE, SERIES, STRANDED, WAITING, Colour
-from trihex.pictures.png import paint, paint_disc_marks, paint_discs, write_words
+from trihex.pictures.film import MOST_SIDE, Film, Groups, Progress, write_film
+from trihex.pictures.palette import DESTINATION, MOVING, PAGE, SERIES, STRANDED, WAITING
+from trihex.pictures.png import paint, paint_disc_marks, write_words
 from trihex.pictures.run_picture import CLASS_COLOURS, class_keys, classes_of, run_title
 from trihex.pictures.scene import Discs, Key, Mark, Scene, centres_of, scale_for
-from trihex.pictures.sheet import MARGIN, TEXT_SIZE, Sheet, Words, width_of
 from trihex.running import BROKEN, GOING, Run
 
 LATE_COLOUR = SERIES[1]
-_SIDE, _MOST_SIDE = 640.0, 900.0
-_MOST_SUBSTEPS = 6
-_HOLD = 1500
-_RADIUS, _LEAST_RADIUS = 0.4, 1.7
+_SIDE = 640.0  # the longest side of a movie unless the caller names a width
 
 
 def write_run_animation(
@@ -43,29 +35,14 @@ def write_run_animation(
 ) -> None:
     """Write a movie of a run: what is known, what is not, robots that move, wait, are late, cut off or broken.
 
-    Parameters and errors are those of `trihex.pictures.movie.write_animation`.
+    Parameters and errors are those of `trihex.write_animation`.
     """
-    suffix = suffix_of(path, SUFFIXES, "a movie")
-    check_range("frames_per_second", frames_per_second, 1, 50)
-    check_range("max_frames", max_frames, 2, 100_000)
-    if suffix == ".mp4":
-        import_av()
     film = RunFilm(run, max_frames, width, run_title(run) if title is None else title)
-    with new_file(path) as part:
-        writer: GifWriter | Mp4Writer
-        if suffix == ".gif":
-            writer = GifWriter(part, film.sample, [STRANDED, LATE_COLOUR, WAITING, MOVING])
-        else:
-            writer = Mp4Writer(part, frames_per_second)
-        with closing(writer):
-            for done, frame in enumerate(film.frames(), 1):
-                writer.add(frame, 10 * round(100 / frames_per_second) if done < film.pace.frame_count else _HOLD)
-                if progress:
-                    progress(done, film.pace.frame_count)
+    write_film(film, path, frames_per_second, progress)
 
 
 @dataclass(frozen=True)
-class RunFilm:
+class RunFilm(Film):
     """The frames of a movie of a run."""
 
     run: Run
@@ -73,17 +50,20 @@ class RunFilm:
     width: int | None
     title: str
 
-    @cached_property
-    def pace(self) -> Pace:
-        """Which steps are shown."""
-        return Pace(self.run.steps, self.max_frames, _MOST_SUBSTEPS)
+    colours = (STRANDED, LATE_COLOUR, WAITING, MOVING)
+    most_substeps = 6
+
+    @property
+    def steps(self) -> int:
+        """Number of steps that the film tells."""
+        return self.run.steps
 
     @cached_property
     def scene(self) -> Scene:
         """What all frames have in common."""
         area, run = self.run.scenario.area, self.run
         across, _ = area.tessellation.extent(area.height, area.width)
-        pixels = max(8, round(scale_for(area, self.width, _SIDE, _MOST_SIDE) * across))
+        pixels = max(8, round(scale_for(area, self.width, _SIDE, MOST_SIDE) * across))
         keys = [Key("disc", MOVING, "moving"), Key("disc", WAITING, "waiting")]
         keys += [Key("disc", LATE_COLOUR, "late")] if (run.actions == LATE).any() else []
         keys += [Key("disc", STRANDED, "cut off or broken")] if (run.state_of_robot != 1).any() else []
@@ -98,16 +78,6 @@ class RunFilm:
             self.title,
             "clock",
         )
-
-    @cached_property
-    def sheet(self) -> Sheet:
-        """Where the parts of a frame lie."""
-        return arrange_frame(self.scene)
-
-    @cached_property
-    def background(self) -> NDArray[np.uint8]:
-        """The picture before the first step, without robots, shape (height, width, 3)."""
-        return paint(self.scene, self.sheet)
 
     @property
     def sample(self) -> NDArray[np.uint8]:
@@ -138,7 +108,7 @@ class RunFilm:
             for part in range(self.pace.substeps if step < run.steps else 1):
                 yield self._frame(background, step, cells[step], later, part / self.pace.substeps, world[1])
 
-    def _groups(self, step: int, cells: NDArray[np.int64]) -> list[tuple[NDArray[np.int64], Colour]]:
+    def _groups(self, step: int, cells: NDArray[np.int64]) -> Groups:
         """Return the robots to be seen after `step` by colour."""
         run, there = self.run, cells >= 0
         action = run.actions[step] if step < run.steps else np.full(there.size, WAIT, dtype=np.uint8)
@@ -173,16 +143,14 @@ class RunFilm:
             ends = centres_of(area, destinations)
             marks = (Discs(*ends, 0.65, PAGE, 5.0), Discs(*ends, 0.5, DESTINATION, 3.5))
         paint_disc_marks(frame, replace(self.scene, marks=marks), self.sheet)
-        x, y = x * scale + self.sheet.body[0], y * scale + self.sheet.body[1]
+        x, y = self.on_page(x, y)
         for robots, colour in self._groups(step, cells):
-            paint_discs(frame, x[robots], y[robots], max(_RADIUS * scale, _LEAST_RADIUS), colour)
+            self.paint_robots(frame, x[robots], y[robots], colour)
         arrived = np.count_nonzero(run.arrived & (run.ended <= step))
         known = float(np.mean((run.known_since >= 0) & (run.known_since <= step)))
         text = f"step {step} of {run.steps}, arrived {arrived} of {run.robots.size}"
         text += f", known {100 * known:.0f} %" if run.sensor is not None else ""
-        room = self.sheet.width - 2 * MARGIN
-        size = int(min(TEXT_SIZE, TEXT_SIZE * room / width_of(text, TEXT_SIZE)))
-        return write_words(frame, [Words(*self.sheet.subtitle_at, text, size)])
+        return write_words(frame, [self.clock_words(text)])
 
     @cached_property
     def _last_cells(self) -> NDArray[np.int64]:

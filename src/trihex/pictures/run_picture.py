@@ -47,7 +47,7 @@ def run_title(run: Run) -> str:
 def picture_of_run(run: Run, *, width: int | None = None, title: str | None = None, legend: bool = True) -> Picture:
     """Return the picture of a run: the step in which each cell was first seen, what was never seen, starts of robots.
 
-    The parameters are those of `trihex.pictures.picture.picture_of_area`.
+    The parameters are those of `trihex.picture_of_area`.
     """
     area, scale = run.scenario.area, scale_for(run.scenario.area, width)
     first = len(CLASS_COLOURS)

@@ -10,6 +10,7 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
+from trihex.areas import Ground
 from trihex.pictures.palette import GROUND, INK, PAGE, Colour
 from trihex.pictures.png import disc_radius, ground_of_body, paint, write_png
 from trihex.pictures.scene import Discs, Lines, Scene, Texts
@@ -55,7 +56,7 @@ def _whole(values: NDArray[np.float64], scene: Scene) -> NDArray[np.int64]:
 def _polygons_and_marks(scene: Scene) -> list[str]:
     return [
         _cells(scene),
-        *([_ground(scene)] if scene.ground is not None else []),
+        *([_ground(scene, scene.ground)] if scene.ground is not None else []),
         *(_lines(mark, scene) for mark in scene.marks if isinstance(mark, Lines)),
         *(_discs(mark, scene) for mark in scene.marks if isinstance(mark, Discs)),
         *(_texts(mark, scene) for mark in scene.marks if isinstance(mark, Texts)),
@@ -95,13 +96,13 @@ def _image(scene: Scene, sheet: Sheet) -> str:
     )
 
 
-def _ground(scene: Scene) -> str:
+def _ground(scene: Scene, ground: Ground) -> str:
     """Return what stands in the world as an image, transparent elsewhere."""
     from PIL import Image
 
     across, down = scene.area.tessellation.extent(scene.area.height, scene.area.width)
     width, height = max(1, round(across * scene.scale)), max(1, round(down * scene.scale))
-    picture = Image.fromarray(ground_of_body(scene, width, height, scene.scale).astype(np.uint8))
+    picture = Image.fromarray(ground_of_body(ground, width, height, scene.scale).astype(np.uint8))
     picture.putpalette([*PAGE, *GROUND])
     file = BytesIO()
     picture.save(file, format="PNG", transparency=0)

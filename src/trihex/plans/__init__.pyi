@@ -4,9 +4,14 @@ from .arrivals import (
 )
 from .plan import (
     Plan as Plan,
-    follow as follow,
+    actions_of as actions_of,
     plan_from_lists as plan_from_lists,
 )
 from .playback import (
     make_playback as make_playback,
+)
+from .walk import (
+    cells_of_rows as cells_of_rows,
+    follow as follow,
+    visits_of as visits_of,
 )

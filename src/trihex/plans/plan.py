@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,9 @@ from trihex.areas import Scenario
 from trihex.errors import PlanError
 from trihex.kernels.codes import JUMP, WAIT
 from trihex.record import Record, read_only
+
+if TYPE_CHECKING:
+    from trihex.kernels.actions import Actions
 
 _NO_ACTIONS = np.empty(0, dtype=np.uint8)
 _NO_JUMPS = np.empty((0, 2), dtype=np.int64)
@@ -87,23 +90,35 @@ class Plan(Record):
         return read_only(at), self.scenario.area.layout.cell_to_site(np.append(self.jumps[:, 1], 0))
 
     @cached_property
+    def _actions(self) -> Actions:
+        from trihex.kernels.actions import Actions
+        from trihex.kernels.signatures import given
+
+        jump_at, jump_to = self.jump_tables
+        own: Actions = given(
+            Actions,
+            action=self.actions,
+            first=self.first_action,
+            offset=self.scenario.area.layout.offset_of_direction,
+            jump_at=jump_at,
+            jump_to=jump_to,
+        )
+        return own
+
+    @cached_property
     def _replayed(self) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
         """Last cell, cost of the moves and number of waits of each robot."""
-        from trihex.plans.kernels.replay import replay
+        from trihex.kernels.signatures import given
+        from trihex.plans.kernels import replay as kernels
 
         area, robots = self.scenario.area, self.scenario.robot_count
         site = np.empty(robots, dtype=np.int32)
         distance, waits = np.empty(robots, dtype=np.int64), np.empty(robots, dtype=np.int64)
-        replay(
+        kernels.replay(
             area.layout.cell_to_site(self.scenario.robots),
-            self.actions,
-            self.first_action,
-            area.layout.offset_of_direction,
+            self._actions,
             area.tessellation.cost_of_direction,
-            *self.jump_tables,
-            site,
-            distance,
-            waits,
+            given(kernels.Replayed, site=site, distance=distance, waits=waits),
         )
         return read_only(area.layout.site_to_cell(site)), read_only(distance), read_only(waits)
 
@@ -149,14 +164,16 @@ class Plan(Record):
 
     def cells_by_step(self) -> Iterator[NDArray[np.int64]]:
         """Yield the cell of each robot after step 0, 1, ..., `steps`; -1 once it has left the area."""
-        from trihex.plans.kernels.replay import advance
+        from trihex.plans.kernels import replay as kernels
 
-        layout = self.scenario.area.layout
+        layout, actions = self.scenario.area.layout, self._actions
         site = layout.cell_to_site(self.scenario.robots)
         arrival = np.where(self.arrived, self.arrival_step_of_robot, np.iinfo(np.int64).max)
         for step in range(self.steps + 1):
-            yield np.where(arrival <= step, -1, layout.site_to_cell(site))
-            advance(self.actions, self.first_action, step, layout.offset_of_direction, *self.jump_tables, site)
+            cells = layout.site_to_cell(site)
+            np.copyto(cells, -1, where=arrival <= step)
+            yield cells
+            kernels.follow(actions, 0, site.size, step, step + 1, site)
 
     def sets_at(self, step: int) -> RobotSets:
         """Return the sets of the paper (section 2.1.1) in step 1, 2, ..., `steps`.
@@ -202,11 +219,6 @@ def plan_from_lists(scenario: Scenario, actions: list[list[int]], **names: Any) 
     return Plan(scenario, flat, first, **names)
 
 
-def follow(plan: Plan, step: int, next_step: int, site: NDArray[np.int32]) -> None:
-    """Move `site` of all robots from one step to another, some 10^7 actions a call."""
-    from trihex.plans.kernels.frames import follow
-
-    offset, some = plan.scenario.area.layout.offset_of_direction, max(1, 10_000_000 // (next_step - step))
-    for first in range(0, site.size, some):
-        last = min(site.size, first + some)
-        follow(plan.actions, plan.first_action, first, last, step, next_step, offset, *plan.jump_tables, site)
+def actions_of(plan: Plan) -> Actions:
+    """Return the actions of a plan as kernels take them."""
+    return plan._actions

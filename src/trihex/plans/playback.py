@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from trihex.fields import NScheme
 from trihex.kernels.codes import NOT_REACHED
-from trihex.plans.plan import Plan
+from trihex.plans.plan import Plan, actions_of
 from trihex.record import Record, read_only
 
 Counts = NDArray[np.int64]
@@ -52,27 +52,20 @@ def make_playback(plan: Plan, n_scheme: NScheme) -> Playback:
     >>> playback.moving, playback.arrived, playback.least_total
     (array([0, 2, 1]), array([0, 1, 2]), array([30, 30, 30]))
     """
-    from trihex.plans.kernels.playback import count_steps
+    from trihex.kernels.signatures import given
+    from trihex.plans.kernels import playback as kernels
 
     scenario, layout = plan.scenario, plan.scenario.area.layout
     start = layout.cell_to_site(scenario.robots)
     moving, waiting, arriving, spent, lost = np.zeros((5, plan.steps + 1), dtype=np.int64)
-    count_steps(
+    kernels.count_steps(
         start,
-        plan.actions,
-        plan.first_action,
-        layout.offset_of_direction,
+        actions_of(plan),
         scenario.area.tessellation.cost_of_direction,
-        *plan.jump_tables,
+        scenario.waiting_cost,
         plan.arrived,
         n_scheme.distance_of_site,
-        NOT_REACHED,
-        scenario.waiting_cost,
-        moving,
-        waiting,
-        arriving,
-        spent,
-        lost,
+        given(kernels.StepSums, moving=moving, waiting=waiting, arriving=arriving, spent=spent, lost=lost),
     )
     ahead = n_scheme.distance_of_site[start][plan.arrived].astype(np.int64)
     lost[0] += ahead[ahead != NOT_REACHED].sum()

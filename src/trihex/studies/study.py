@@ -14,7 +14,7 @@ from typing import Any
 from trihex.areas import Scenario
 from trihex.errors import FormatError, StudyError, TrihexError
 from trihex.files import read_bytes
-from trihex.formats import complaint, parse_toml
+from trihex.formats import complaint, read_toml
 from trihex.formats.schema import check_document
 from trihex.record import Record
 from trihex.studies.case import read_area_of, try_planner
@@ -74,7 +74,7 @@ def read_study(path: str | os.PathLike[str]) -> Study:
     OSError
         If the file cannot be read.
     """
-    document = parse_toml(read_bytes(path), path)
+    document = read_toml(path)
     study, mistakes = _study_of(document, _Check(Path(path).parent))
     if study is None:
         raise complaint(path, mistakes)

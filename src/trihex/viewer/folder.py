@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from trihex.errors import FormatError
-from trihex.files import MAX_BYTES, check_text, read_bytes
-from trihex.formats import format_of
+from trihex.files import MAX_BYTES, read_bytes
+from trihex.formats import check_text, format_of
 from trihex.formats.areas.ros import parse_yaml
 
 SUFFIXES = (

@@ -1,4 +1,4 @@
-"""GeoJSON: places as polygons in metres, with obstacles, destinations and robots; and plans as lines."""
+"""GeoJSON: places as polygons in metres, with obstacles, destinations and robots."""
 
 from __future__ import annotations
 
@@ -10,20 +10,16 @@ from typing import Any
 from trihex.areas import import_shapely
 from trihex.areas.coverage import Progress
 from trihex.errors import FormatError, check_choice
-from trihex.files import check_text, new_file
 from trihex.formats.areas.options import AreaOptions
 from trihex.formats.areas.polygons import Place, draft_of_place
 from trihex.formats.draft import Draft
-from trihex.formats.tracks.tracks import Tracks
+from trihex.formats.text import Text
 
-MAX_BYTES = 2**26  # json takes some 30 times as much while it reads
 KINDS = ("free", "obstacle", "destination", "robot")
 _TYPES = ("Point", "MultiPoint", "LineString", "MultiLineString", "Polygon", "MultiPolygon", "GeometryCollection")
 
 
-def parse_geojson(
-    content: bytes, path: str | os.PathLike[str], options: AreaOptions, progress: Progress | None
-) -> Draft:
+def parse_geojson(text: Text, path: str | os.PathLike[str], options: AreaOptions, progress: Progress | None) -> Draft:
     """Return the area that covers what the file draws, and its destinations and robots if it has some.
 
     Coordinates are metres, x to the east and y to the north. The property ``kind`` of a feature tells what it is: free
@@ -37,14 +33,10 @@ def parse_geojson(
         If shapely is not installed.
     """
     shapely = import_shapely()
-    if len(content) > MAX_BYTES:
-        raise FormatError(f"{path}: must be at most {MAX_BYTES} bytes long, not {len(content)}")
     try:
-        document = json.loads(check_text(content, path))
+        document = json.loads(text)
     except RecursionError:
         raise FormatError(f"{path}: is nested too deeply") from None
-    except FormatError:
-        raise
     except ValueError as error:
         raise FormatError(f"{path}: is no JSON: {error}") from None
     parts: dict[str, list[Any]] = {kind: [] for kind in KINDS}
@@ -111,31 +103,3 @@ def _shape(leaf: dict[str, Any], where: str) -> Any:
         elif str(error).startswith("IllegalArgumentException: "):
             reason = str(error).partition(": ")[2]
         raise FormatError(f"{where}: is no {leaf['type']}: {reason}") from None
-
-
-def write_geojson(tracks: Tracks, path: str | os.PathLike[str]) -> None:
-    """Write a feature for each robot: a LineString of its places in metres, step by step; a Point if it has but one.
-
-    Properties: kind `track`, robot, arrived, and times, the seconds of the places.
-    """
-    with new_file(path) as part, open(part, "w", encoding="ascii", newline="\n") as file:
-        file.write('{"type": "FeatureCollection", "features": [\n')
-        for robot in range(tracks.robot_count):
-            rows = tracks.rows_of(robot)
-            places = [list(place) for place in zip(tracks.x[rows].tolist(), tracks.y[rows].tolist(), strict=True)]
-            is_line = len(places) > 1
-            feature = {
-                "type": "Feature",
-                "geometry": {
-                    "type": "LineString" if is_line else "Point",
-                    "coordinates": places if is_line else places[0],
-                },
-                "properties": {
-                    "kind": "track",
-                    "robot": robot,
-                    "arrived": bool(tracks.arrived[robot]),
-                    "times": tracks.seconds[rows].tolist(),
-                },
-            }
-            file.write(json.dumps(feature) + (",\n" if robot + 1 < tracks.robot_count else "\n"))
-        file.write("]}\n")

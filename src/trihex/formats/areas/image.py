@@ -6,20 +6,25 @@ import os
 import warnings
 from io import BytesIO
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Area, Frame, Ground, cover_raster
+from trihex.areas import Area, Ground, cover_raster
 from trihex.areas.coverage import Progress
-from trihex.errors import FormatError, check_choice
+from trihex.errors import FormatError
 from trihex.files import new_file
 from trihex.formats.areas.options import AreaOptions
+from trihex.formats.areas.rows import refuse_frame
 from trihex.formats.draft import Draft
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
 
 # Pillow's names. No TIFF: its library writes what it thinks of a file to stderr.
 KINDS = ("PNG", "PPM", "BMP", "GIF", "JPEG")
-SUFFIXES = (".png", ".pgm", ".bmp")
+_KIND_OF_SUFFIX = {".png": "PNG", ".pgm": "PPM", ".bmp": "BMP"}  # those that are written
 # What a small file may claim to unpack to: as much as 10 000 x 10 000.
 MAX_PIXELS = 10**8
 _ROWS_AT_ONCE = 256
@@ -58,10 +63,7 @@ def read_pixels(content: bytes, path: object) -> tuple[NDArray[np.uint8], NDArra
         raise FormatError(f"{path}: the image is damaged: {str(error) or type(error).__name__}") from None
 
 
-def _grey(image: object) -> tuple[NDArray[np.uint8], NDArray[np.bool_]]:
-    from PIL import Image
-
-    assert isinstance(image, Image.Image)
+def _grey(image: Image) -> tuple[NDArray[np.uint8], NDArray[np.bool_]]:
     if image.mode.startswith("I") or image.mode == "F":  # 16 bits a pixel
         values = np.asarray(image).astype(np.float64)
         return np.clip(np.round(values / 257), 0, 255).astype(np.uint8), np.ones(values.shape, dtype=bool)
@@ -123,16 +125,7 @@ def write_image(area: Area, path: str | os.PathLike[str]) -> None:
     """
     from PIL import Image
 
-    suffix = check_choice(f"{path}: the suffix of an image", Path(path).suffix.lower(), SUFFIXES, FormatError)
     refuse_frame(area.frame, path)
     with new_file(path) as part, open(part, "wb") as file:
         pixels = np.where(area.barriers, 0, 255).astype(np.uint8)
-        Image.fromarray(pixels).save(file, format={".png": "PNG", ".pgm": "PPM", ".bmp": "BMP"}[suffix])
-
-
-def refuse_frame(frame: Frame | None, path: object) -> None:
-    """Raise FormatError if there is a frame, for formats that have one cell for each letter or pixel."""
-    if frame is not None:
-        raise FormatError(
-            f"{path}: the area lies in the world in metres, which this format cannot carry; write a scenario (.toml)"
-        )
+        Image.fromarray(pixels).save(file, format=_KIND_OF_SUFFIX[Path(path).suffix.lower()])

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import os
+from typing import Any
 
 import numpy as np
 
 from trihex.areas import Area, Scenario, Tessellation
+from trihex.areas.coverage import Progress
 from trihex.errors import FormatError
 from trihex.files import new_file
-from trihex.formats.areas.rows import parse_rows
+from trihex.formats.areas.options import AreaOptions
+from trihex.formats.areas.rows import framed, parse_rows, refuse_frame
 from trihex.formats.draft import Draft
+from trihex.formats.text import Text
 
 _ROBOTS = range(ord("a"), ord("z") + 1)
 _KIND_OF_LETTER = np.full(256, 255, dtype=np.uint8)
@@ -20,7 +24,14 @@ _RULES = ("waiting_cost", "crossing", "corners", "destination_capacity")
 _KNOWN = ". (free), B (barrier), D (destination), a to z (robots)"
 
 
-def parse_letters(content: bytes, path: str | os.PathLike[str], tessellation: Tessellation) -> Draft:
+def parse_letters(
+    text: Text, path: str | os.PathLike[str], options: AreaOptions, progress: Progress | None = None
+) -> Draft:
+    """Return the draft of a file of letters, read at once; see `draft_of_letters`."""
+    return framed(draft_of_letters(text, path, options.tessellation), options, path)
+
+
+def draft_of_letters(content: bytes, path: str | os.PathLike[str], tessellation: Tessellation) -> Draft:
     """Return the area, its destinations and its robots, which are numbered in the order of their letters.
 
     Destinations and robots are None where there is no `D`, no small letter.
@@ -77,11 +88,29 @@ def lost_in_letters(scenario: Scenario) -> list[str]:
     return [*lost, *(["a frame in metres"] if scenario.area.frame else [])]
 
 
-def write_letters(what: Area | Scenario, path: str | os.PathLike[str]) -> None:
-    """Write an area, or a scenario with its destinations and robots; tessellation and rules are not kept."""
-    if isinstance(what, Scenario):
-        rows = letters_of(what)
-    else:
-        rows = ["".join("B" if barrier else "." for barrier in row) for row in what.barriers.tolist()]
+def write_letters(area: Area, path: str | os.PathLike[str]) -> None:
+    """Write the barriers of an area; the tessellation is not kept.
+
+    Raises
+    ------
+    FormatError
+        If the area has a frame.
+    """
+    refuse_frame(area.frame, path)
+    _write(["".join("B" if barrier else "." for barrier in row) for row in area.barriers.tolist()], path)
+
+
+def write_scenario_letters(scenario: Scenario, path: str | os.PathLike[str], **planner: Any) -> None:
+    """Write a scenario with its destinations and robots; tessellation, rules and planner are not kept.
+
+    Raises
+    ------
+    FormatError
+        If letters cannot carry it; see `letters_of`.
+    """
+    _write(letters_of(scenario), path)
+
+
+def _write(rows: list[str], path: str | os.PathLike[str]) -> None:
     with new_file(path) as part:
         part.write_text("\n".join([*rows, ""]))

@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import os
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from trihex.areas import MAX_CELLS, Area
+from trihex.areas.coverage import Progress
 from trihex.errors import FormatError, check_choice
 from trihex.files import new_file
-from trihex.formats.areas.rows import parse_rows
+from trihex.formats.areas.options import AreaOptions
+from trihex.formats.areas.rows import framed, parse_rows, refuse_frame
+from trihex.formats.draft import Draft
+from trihex.formats.text import Text
 
 TYPES = ("octile", "tile", "octile_unicost", "hex")
 # The collection's own letters. E and S, stations in warehouse maps and swamp elsewhere, can be entered as well.
@@ -21,14 +26,22 @@ _KIND_OF_LETTER[list(BARRIER)] = 1
 _KNOWN = f"{' '.join(FREE.decode())} (free) and {' '.join(BARRIER.decode())} (barriers)"
 
 
-def parse_movingai(content: bytes, path: str | os.PathLike[str]) -> NDArray[np.bool_]:
-    """Return the barriers, shape (height, width), of the content of a `.map` file; `path` is for messages.
+def parse_movingai(
+    text: Text, path: str | os.PathLike[str], options: AreaOptions, progress: Progress | None = None
+) -> Draft:
+    """Return the area of a `.map` file, read at once.
 
     Raises
     ------
     FormatError
         If the header is wrong, rows are missing or ragged, or a letter is unknown.
     """
+    area = Area(options.tessellation, _parse_barriers(text, path), Path(path).stem)
+    return framed(Draft(area), options, path)
+
+
+def _parse_barriers(content: Text, path: object) -> NDArray[np.bool_]:
+    """Return the barriers, shape (height, width)."""
     height, width, begin = _parse_header(content, path)
     if height * width > MAX_CELLS or height * width > len(content) - begin:
         raise FormatError(
@@ -73,7 +86,14 @@ def _parse_header(content: bytes, path: object) -> tuple[int, int, int]:
 
 
 def write_movingai(area: Area, path: str | os.PathLike[str]) -> None:
-    """Write the barriers of `area`; the tessellation is not kept, for the format knows none."""
+    """Write the barriers of `area`; the tessellation is not kept, for the format knows none.
+
+    Raises
+    ------
+    FormatError
+        If the area has a frame.
+    """
+    refuse_frame(area.frame, path)
     rows = np.where(area.barriers, ord("@"), ord(".")).astype(np.uint8)
     lines = np.concatenate([rows, np.full((area.height, 1), ord("\n"), dtype=np.uint8)], axis=1)
     header = f"type octile\nheight {area.height}\nwidth {area.width}\nmap\n"

@@ -14,10 +14,11 @@ from numpy.typing import NDArray
 from trihex.areas import Ground, cover_raster
 from trihex.areas.coverage import Progress
 from trihex.errors import FormatError, check_choice
-from trihex.files import check_text, read_bytes
+from trihex.files import read_bytes
 from trihex.formats.areas.image import read_pixels
 from trihex.formats.areas.options import AreaOptions
 from trihex.formats.draft import Draft
+from trihex.formats.text import Text
 
 MODES = ("trinary", "scale", "raw")
 _REQUIRED = ("image", "resolution", "origin")
@@ -25,7 +26,7 @@ _KEYS = (*_REQUIRED, "occupied_thresh", "free_thresh", "negate", "mode")
 _LINE = re.compile(r"(?P<key>[A-Za-z_]\w*)\s*:(?:\s+(?P<value>.*))?$")
 
 
-def parse_ros(content: bytes, path: str | os.PathLike[str], options: AreaOptions, progress: Progress | None) -> Draft:
+def parse_ros(text: Text, path: str | os.PathLike[str], options: AreaOptions, progress: Progress | None) -> Draft:
     """Return the area that covers a ROS map, and the map as its ground, as nav2's map_server understands it.
 
     With p = (255 - grey) / 255, or grey / 255 if negated, a pixel is occupied if p > occupied_thresh, free if
@@ -39,7 +40,7 @@ def parse_ros(content: bytes, path: str | os.PathLike[str], options: AreaOptions
     OSError
         If the image cannot be read.
     """
-    entries = parse_yaml(check_text(content, path).decode(), path)
+    entries = parse_yaml(text.decode(), path)
     resolution = _number(entries, "resolution", path)
     if not 1e-9 <= resolution <= 1e9:
         raise FormatError(f"{path}: resolution must be between 1e-9 and 1e9 metres, not {resolution:g}")

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
 
+from trihex.areas import Frame
 from trihex.errors import FormatError
+from trihex.formats.areas.options import AreaOptions
+from trihex.formats.draft import Draft
 
 
 def parse_rows(
@@ -56,3 +60,26 @@ def _complain(content: bytes, path: object, kind_of_letter: NDArray[np.uint8], h
         if len(row) != width or width == 0:
             raise FormatError(f"{path}: ragged rows: row {y} has {len(row)} letters, it must have {width or 'some'}")
     raise FormatError(f"{path}: ragged rows")  # not reached: some row is wrong, or the caller would not ask
+
+
+def framed(draft: Draft, options: AreaOptions, path: object) -> Draft:
+    """Return a draft of one cell for each letter with a frame, if the options say how large a cell is.
+
+    Raises
+    ------
+    FormatError
+        If they have a radius of robots: there are no walls to keep away from.
+    """
+    if options.robot_radius:
+        raise FormatError(f"{path}: has one cell for each letter; robot_radius needs a place with walls in metres")
+    if options.cell_size is None:
+        return draft
+    return replace(draft, area=replace(draft.area, frame=Frame(options.cell_size)))
+
+
+def refuse_frame(frame: Frame | None, path: object) -> None:
+    """Raise FormatError if there is a frame, for formats that have one cell for each letter or pixel."""
+    if frame is not None:
+        raise FormatError(
+            f"{path}: the area lies in the world in metres, which this format cannot carry; write a scenario (.toml)"
+        )

@@ -10,16 +10,15 @@ import numpy as np
 from trihex.areas import import_shapely
 from trihex.areas.coverage import Progress
 from trihex.errors import FormatError
-from trihex.files import check_text
 from trihex.formats.areas.options import AreaOptions
 from trihex.formats.areas.polygons import Place, draft_of_place
 from trihex.formats.draft import Draft
+from trihex.formats.text import Text
 
-MAX_BYTES = 2**28
 _DEEPEST = 50  # GEOS reads collections within collections by recursion
 
 
-def parse_wkt(content: bytes, path: str | os.PathLike[str], options: AreaOptions, progress: Progress | None) -> Draft:
+def parse_wkt(content: Text, path: str | os.PathLike[str], options: AreaOptions, progress: Progress | None) -> Draft:
     """Return the area that covers what the text draws.
 
     Raises
@@ -30,9 +29,7 @@ def parse_wkt(content: bytes, path: str | os.PathLike[str], options: AreaOptions
         If shapely is not installed.
     """
     shapely = import_shapely()
-    if len(content) > MAX_BYTES:
-        raise FormatError(f"{path}: must be at most {MAX_BYTES} bytes long, not {len(content)}")
-    text = check_text(content, path).decode().strip()
+    text = content.decode().strip()
     depth = deepest = 0
     for bracket in re.finditer(r"[()]", text):
         depth += 1 if bracket[0] == "(" else -1

@@ -1,9 +1,12 @@
 """Text of tables: rows of whole numbers and words, written and read byte by byte."""
 
-from numba import njit, types
+from typing import NamedTuple
 
+from numba import types
+
+from trihex.kernels.actions import ACTIONS, site_after
 from trihex.kernels.codes import JUMP, WAIT
-from trihex.kernels.signatures import IN_BOOL, IN_I32, IN_I64, IN_U8, OUT_I64, OUT_U8, TABLE_I32
+from trihex.kernels.signatures import APART, HELPER, IN_BOOL, IN_I32, IN_I64, IN_U8, OUT_I64, OUT_U8, declared, kernel
 
 COMMA, NEWLINE, RETURN, MINUS, ZERO = 44, 10, 13, 45, 48
 # No row is longer: five numbers of at most 19 digits, a word, and the commas.
@@ -12,7 +15,27 @@ LONGEST_ROW = 160
 NO_NUMBER, NO_WORD, TOO_FEW, TOO_MANY = 1, 2, 3, 4
 
 
-@njit(nogil=True)
+class Spelling(NamedTuple):
+    """The words that a column may hold."""
+
+    letters: IN_U8  # those of all words, one after the other
+    first: IN_I64  # word w is letters[first[w] : first[w + 1]]
+
+
+class PlanTable(NamedTuple):
+    """What the rows of a plan are made of besides its actions."""
+
+    start: IN_I32  # the site in which each robot starts
+    cost: IN_I32  # of each direction
+    waiting_cost: types.int64
+    origin: types.int64  # the site of cell (0, 0)
+    pitch: types.int64  # from a row of sites to the next
+
+
+SPELLING = declared(Spelling)
+
+
+@APART
 def _put_number(text, at, value):
     """Write a number from 0; return where the text goes on."""
     digits = 1
@@ -26,107 +49,135 @@ def _put_number(text, at, value):
     return at + digits
 
 
-@njit(nogil=True)
-def _put_word(text, at, letters, first, last):
-    for i in range(first, last):
-        text[at] = letters[i]
+@HELPER
+def _put_word(text, at, word, spelling):
+    for i in range(spelling.first[word], spelling.first[word + 1]):
+        text[at] = spelling.letters[i]
         at += 1
     return at
 
 
-@njit(
-    types.int64(
-        IN_I32,
-        IN_U8,
-        IN_I64,
-        TABLE_I32,
-        IN_I32,
-        types.int64,
-        IN_I64,
-        IN_I32,
-        types.int64,
-        types.int64,
-        IN_U8,
-        IN_I64,
-        OUT_I64,
-        OUT_U8,
-    ),
-    cache=True,
-    nogil=True,
-)
-def write_plan_rows(
-    start,
-    actions,
-    first_action,
-    offset,
-    cost,
-    waiting,
-    jump_at,
-    jump_to,
-    origin,
-    pitch,
-    letters,
-    first_letter,
-    state,
-    text,
-):
+@HELPER
+def _word_of(action, site, directions):
+    """Return the word for an action at a site: words are directions by parity, then start, wait, jump."""
+    if action == WAIT:
+        return 2 * directions + 1
+    if action == JUMP:
+        return 2 * directions + 2
+    return (site & 1) * directions + action
+
+
+@HELPER
+def _price_of(action, table):
+    if action == WAIT:
+        return table.waiting_cost
+    return 0 if action == JUMP else table.cost[action]
+
+
+@kernel(types.int64(declared(PlanTable), ACTIONS, SPELLING, OUT_I64, OUT_U8))
+def write_plan_rows(table, actions, spelling, state, text):
     """Fill `text` with rows ``robot,step,x,y,action,time`` and return its length, 0 when all are written.
 
-    Word w is ``letters[first_letter[w] : first_letter[w + 1]]``: the directions of parity 0, those of parity 1, then
-    start, wait, jump. `state` holds robot, step, site, time and next jump, zeros before the first call.
+    The words are the directions of parity 0, those of parity 1, then start, wait, jump. `state` holds robot, step, site
+    and time of where to go on, zeros before the first call.
     """
-    directions = offset.shape[1]
-    robot, step, site, time, jump = state[0], state[1], state[2], state[3], state[4]
-    at = 0
-    while robot < len(start) and at + LONGEST_ROW <= len(text):
+    directions = actions.offset.shape[1]
+    robot, step, site, time = state[0], state[1], state[2], state[3]
+    at = types.int64(0)
+    while robot < len(table.start) and at + LONGEST_ROW <= len(text):
         if step == 0:
-            site = start[robot]
+            site = types.int64(table.start[robot])
             time = 0
             word = 2 * directions
         else:
-            i = first_action[robot] + step - 1
-            action = actions[i]
-            if action == WAIT:
-                time += waiting
-                word = 2 * directions + 1
-            elif action == JUMP:
-                while jump_at[jump] < i:
-                    jump += 1
-                site = jump_to[jump]
-                word = 2 * directions + 2
-            else:
-                word = (site & 1) * directions + action
-                time += cost[action]
-                site += offset[site & 1, action]
-        place = site - origin
-        at = _put_number(text, at, robot)
-        text[at] = COMMA
-        at = _put_number(text, at + 1, step)
-        text[at] = COMMA
-        at = _put_number(text, at + 1, place % pitch)
-        text[at] = COMMA
-        at = _put_number(text, at + 1, place // pitch)
-        text[at] = COMMA
-        at = _put_word(text, at + 1, letters, first_letter[word], first_letter[word + 1])
+            i = actions.first[robot] + step - 1
+            action = actions.action[i]
+            word = _word_of(action, site, directions)
+            time += _price_of(action, table)
+            site = site_after(site, i, actions)
+        place = site - table.origin
+        for number in (robot, step, place % table.pitch, place // table.pitch):
+            at = _put_number(text, at, number)
+            text[at] = COMMA
+            at += 1
+        at = _put_word(text, at, word, spelling)
         text[at] = COMMA
         at = _put_number(text, at + 1, time)
         text[at] = NEWLINE
         at += 1
-        if first_action[robot] + step == first_action[robot + 1]:
+        step += 1
+        if actions.first[robot] + step > actions.first[robot + 1]:
             robot += 1
             step = 0
-        else:
-            step += 1
-    state[0], state[1], state[2], state[3], state[4] = robot, step, site, time, jump
+    state[0], state[1], state[2], state[3] = robot, step, site, time
     return at
 
 
-@njit(
-    types.int64(IN_U8, IN_BOOL, IN_U8, IN_I64, types.int64, OUT_I64, types.Array(types.int64, 2, "C")),
-    cache=True,
-    nogil=True,
-)
-def parse_table(text, is_word, letters, first_letter, budget, state, table):
+@HELPER
+def _number_at(text, at):
+    """Return a whole number and where it ends; that is where it begins if it is none, or has more than 18 digits."""
+    is_negative = text[at] == MINUS
+    first = at + is_negative
+    end = first
+    value = 0
+    while text[end] >= ZERO and text[end] < ZERO + 10 and end - first < 19:
+        value = value * 10 + (text[end] - ZERO)
+        end += 1
+    if end == first or end - first > 18:
+        return value, at
+    return -value if is_negative else value, end
+
+
+@HELPER
+def _word_at(text, at, spelling):
+    """Return a word and where it ends; -1 for one that is unknown."""
+    end = at
+    while text[end] != COMMA and text[end] != NEWLINE and text[end] != RETURN:
+        end += 1
+    for word in range(len(spelling.first) - 1):
+        begin = spelling.first[word]
+        if spelling.first[word + 1] - begin == end - at:
+            same = at
+            while same < end and text[same] == spelling.letters[begin + same - at]:
+                same += 1
+            if same == end:
+                return word, end
+    return -1, end
+
+
+@HELPER
+def _read_row(text, at, is_word, spelling, row, state, table):
+    """Fill a row of `table`; return what is wrong and where the next row begins.
+
+    ``state[2]`` and ``state[3]`` tell in which column that is, and where it begins.
+    """
+    columns = len(is_word)
+    for column in range(columns):
+        state[2], state[3] = column, at
+        if is_word[column]:
+            value, end = _word_at(text, at, spelling)
+            if value < 0:
+                return NO_WORD, at
+        else:
+            value, end = _number_at(text, at)
+            if end == at:
+                return NO_NUMBER, at
+        table[column, row] = value
+        at = end
+        if column < columns - 1:
+            if text[at] != COMMA:
+                ends = text[at] == NEWLINE or text[at] == RETURN
+                return TOO_FEW if ends else NO_NUMBER, at
+            at += 1
+    if text[at] == RETURN:
+        at += 1
+    if text[at] != NEWLINE:
+        return TOO_MANY if text[at] == COMMA else NO_NUMBER, at
+    return 0, at + 1
+
+
+@kernel(types.int64(IN_U8, IN_BOOL, SPELLING, types.int64, OUT_I64, types.Array(types.int64, 2, "C")))
+def parse_table(text, is_word, spelling, budget, state, table):
     """Read at most `budget` rows of ``table[column, row]`` from `text`; return 0 or what is wrong.
 
     Columns hold a whole number of at most 18 digits or, where `is_word` says so, one of the words, which comes out as
@@ -134,51 +185,13 @@ def parse_table(text, is_word, letters, first_letter, budget, state, table):
     ends in a line feed.
     """
     at, row = state[0], state[1]
-    columns = len(is_word)
-    words = len(first_letter) - 1
-    last_row = min(row + budget, table.shape[1])
-    while row < last_row:
-        for column in range(columns):
-            begin = at
-            state[0], state[1], state[2], state[3] = at, row, column, begin
-            if is_word[column]:
-                while text[at] != COMMA and text[at] != NEWLINE and text[at] != RETURN:
-                    at += 1
-                found = -1
-                for word in range(words):
-                    length = first_letter[word + 1] - first_letter[word]
-                    if length == at - begin:
-                        same = 0
-                        while same < length and text[begin + same] == letters[first_letter[word] + same]:
-                            same += 1
-                        if same == length:
-                            found = word
-                            break
-                if found < 0:
-                    return NO_WORD
-                table[column, row] = found
-            else:
-                is_negative = text[at] == MINUS
-                if is_negative:
-                    at += 1
-                first_digit = at
-                value = 0
-                while text[at] >= ZERO and text[at] < ZERO + 10 and at - first_digit < 19:
-                    value = value * 10 + (text[at] - ZERO)
-                    at += 1
-                if at == first_digit or at - first_digit > 18:
-                    return NO_NUMBER
-                table[column, row] = -value if is_negative else value
-            if column < columns - 1:
-                if text[at] != COMMA:
-                    ends = text[at] == NEWLINE or text[at] == RETURN
-                    return TOO_FEW if ends else NO_NUMBER
-                at += 1
-        if text[at] == RETURN:
-            at += 1
-        if text[at] != NEWLINE:
-            return TOO_MANY if text[at] == COMMA else NO_NUMBER
-        at += 1
-        row += 1
+    last_row = row + budget
+    if last_row > table.shape[1]:
+        last_row = table.shape[1]
+    wrong = 0
+    while row < last_row and wrong == 0:
+        wrong, at = _read_row(text, at, is_word, spelling, row, state, table)
+        if wrong == 0:
+            row += 1
     state[0], state[1] = at, row
-    return 0
+    return wrong

@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 
 from trihex.areas import Scenario, Tessellation
 from trihex.errors import FormatError
-from trihex.files import check_text, new_file, read_bytes
-from trihex.formats.starts.csv import check_inside
-from trihex.formats.table import letters_of_words, parse_table
+from trihex.files import new_file
+from trihex.formats.registry import PLAN_HEADER
+from trihex.formats.table import check_inside, parse_table, spelling_of
+from trihex.formats.text import Text
 from trihex.kernels.codes import JUMP, WAIT
-from trihex.plans import Plan
+from trihex.plans import Plan, actions_of
 
-HEADER = "robot,step,x,y,action,time"
 _BUFFER = 4 << 20  # bytes that the kernel fills in one call, some 10 ms
 
 
@@ -35,38 +35,34 @@ def write_plan_csv(
     its row of step 0 only. Area, destinations and rules are not kept: whoever reads the file must name them again.
     """
     from trihex.formats.kernels import table_text
+    from trihex.kernels.signatures import given
 
-    area, tessellation = plan.scenario.area, plan.scenario.area.tessellation
-    state = np.zeros(5, dtype=np.int64)
+    layout, tessellation = plan.scenario.area.layout, plan.scenario.area.tessellation
+    table = given(
+        table_text.PlanTable,
+        start=layout.cell_to_site(plan.scenario.robots),
+        cost=tessellation.cost_of_direction,
+        waiting_cost=plan.scenario.waiting_cost,
+        origin=layout.origin,
+        pitch=layout.pitch,
+    )
+    state = np.zeros(4, dtype=np.int64)
     text = np.empty(_BUFFER, dtype=np.uint8)
     with new_file(path) as part, open(part, "wb") as file:
-        file.write(f"{HEADER}\n".encode())
+        file.write(f"{PLAN_HEADER}\n".encode())
+        actions, spelling = actions_of(plan), spelling_of(words_of_actions(tessellation))
         length = -1
         while length:
-            length = table_text.write_plan_rows(
-                area.layout.cell_to_site(plan.scenario.robots),
-                plan.actions,
-                plan.first_action,
-                area.layout.offset_of_direction,
-                tessellation.cost_of_direction,
-                plan.scenario.waiting_cost,
-                *plan.jump_tables,
-                area.layout.origin,
-                area.layout.pitch,
-                *letters_of_words(words_of_actions(tessellation)),
-                state,
-                text,
-            )
+            length = table_text.write_plan_rows(table, actions, spelling, state, text)
             file.write(text[:length].data)
             if progress is not None:
                 progress(int(state[0]), plan.scenario.robot_count)
 
 
-def read_plan_csv(
+def parse_plan_csv(
+    text: Text,
     path: str | os.PathLike[str],
     scenario: Scenario,
-    content: bytes | None = None,
-    *,
     progress: Callable[[int, int], None] | None = None,
 ) -> Plan:
     """Return the plan that a CSV file holds for the area, the destinations and the rules of `scenario`.
@@ -76,10 +72,10 @@ def read_plan_csv(
 
     Parameters
     ----------
+    text : Text
     path : path
+        For messages.
     scenario : Scenario
-    content : bytes, optional
-        The content, where it has been read already.
     progress : callable, optional
         Called with (rows read, all rows).
 
@@ -88,17 +84,13 @@ def read_plan_csv(
     FormatError
         If a line is not of the form, a cell lies outside the area, a robot or step is missing or there twice, or a
         time does not follow from the moves at the costs of `scenario`; the message names the line.
-    OSError
-        If the file cannot be read.
     """
-    text = check_text(read_bytes(path) if content is None else content, path)
     words = words_of_actions(scenario.area.tessellation)
-    table = parse_table(text, path, HEADER, {"action": words}, progress)
-    return plan_of_table(table, scenario, path)
+    return plan_of_table(parse_table(text, path, PLAN_HEADER, {"action": words}, progress), scenario, path)
 
 
 def plan_of_table(table: NDArray[np.int64], scenario: Scenario, path: object) -> Plan:
-    """Return the plan that a table of the columns of `HEADER` holds, shape (6, rows); see `read_plan_csv`."""
+    """Return the plan that a table of the columns of `PLAN_HEADER` holds, shape (6, rows); see `parse_plan_csv`."""
     area, tessellation = scenario.area, scenario.area.tessellation
     words = words_of_actions(tessellation)
     check_inside(table[2], table[3], area, path)

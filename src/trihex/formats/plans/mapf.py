@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 
 import numpy as np
 
@@ -11,10 +12,11 @@ from trihex.files import new_file
 from trihex.plans import Plan
 
 
-def write_mapf(plan: Plan, path: str | os.PathLike[str]) -> None:
+def write_mapf(plan: Plan, path: str | os.PathLike[str], *, progress: Callable[[int, int], None] | None = None) -> None:
     """Write lines ``step:(x,y),(x,y),...,`` with the cell of each robot, (0, 0) in the north-west.
 
     The format knows no robots that leave: one that has arrived repeats its destination.
+    No progress is told.
 
     Raises
     ------

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from io import BytesIO
 from types import ModuleType
 from typing import Any
@@ -12,21 +13,23 @@ from numpy.typing import NDArray
 
 from trihex.areas import Scenario
 from trihex.errors import FormatError, MissingExtraError, check_choice
-from trihex.files import new_file, read_bytes
-from trihex.formats.plans.csv import HEADER, plan_of_table, words_of_actions
-from trihex.formats.tracks.tracks import cells_of_rows
+from trihex.files import new_file
+from trihex.formats.plans.csv import plan_of_table, words_of_actions
+from trihex.formats.registry import PLAN_HEADER
 from trihex.kernels.codes import JUMP, WAIT
-from trihex.plans import Plan
+from trihex.plans import Plan, cells_of_rows
 
 # What a file may unpack to: rows take 48 bytes and more while they are read.
 MAX_ROWS = 10**8
 MAX_UNPACKED = 2**32
 
 
-def write_plan_parquet(plan: Plan, path: str | os.PathLike[str]) -> None:
+def write_plan_parquet(
+    plan: Plan, path: str | os.PathLike[str], *, progress: Callable[[int, int], None] | None = None
+) -> None:
     """Write a row for each robot and step: robot, step, x, y (int64), action (words), time (int64).
 
-    Area, destinations and rules are not kept, as in CSV.
+    Area, destinations and rules are not kept, as in CSV. Arrow writes all rows at once: no progress is told.
 
     Raises
     ------
@@ -74,8 +77,13 @@ def write_plan_parquet(plan: Plan, path: str | os.PathLike[str]) -> None:
         parquet.write_table(table, part, compression="zstd")
 
 
-def read_plan_parquet(path: str | os.PathLike[str], scenario: Scenario, content: bytes | None = None) -> Plan:
-    """Return the plan of a Parquet file with the columns of the CSV; see `read_plan_csv`.
+def parse_plan_parquet(
+    content: bytes,
+    path: str | os.PathLike[str],
+    scenario: Scenario,
+    progress: Callable[[int, int], None] | None = None,
+) -> Plan:
+    """Return the plan of a Parquet file with the columns of the CSV, read at once; see `parse_plan_csv`.
 
     Raises
     ------
@@ -83,12 +91,9 @@ def read_plan_parquet(path: str | os.PathLike[str], scenario: Scenario, content:
         If the file is damaged or too large, a column is missing, or its rows make no plan.
     MissingExtraError
         If pyarrow is not installed.
-    OSError
-        If the file cannot be read.
     """
     arrow, parquet = _import_pyarrow()
-    content = read_bytes(path) if content is None else content
-    names = HEADER.split(",")
+    names = PLAN_HEADER.split(",")
     try:
         with parquet.ParquetFile(BytesIO(content)) as file:
             _check_metadata(file, path)
@@ -116,7 +121,7 @@ def _check_metadata(file: Any, path: object) -> None:
             f"{path}: may have at most {MAX_ROWS} rows and {MAX_UNPACKED} bytes, not {rows} and {unpacked}"
         )
     names = file.schema_arrow.names
-    for name in HEADER.split(","):
+    for name in PLAN_HEADER.split(","):
         if names.count(name) != 1:
             raise FormatError(f"{path}: there must be one column {name!r}; the columns are {', '.join(names):.100}")
 

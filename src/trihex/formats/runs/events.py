@@ -10,8 +10,9 @@ from typing import Annotated, Any
 from pydantic import Field
 
 from trihex.errors import FormatError, TrihexError, check_choice
-from trihex.files import check_text, new_file, read_bytes, suffix_of
+from trihex.files import new_file, suffix_of
 from trihex.formats.schema import Table, check_document, choice
+from trihex.formats.text import Text, read_text
 from trihex.formats.toml import complaint, parse_toml
 from trihex.running import KINDS, MOST_STEPS, Event
 
@@ -55,12 +56,12 @@ def read_events(path: str | os.PathLike[str]) -> tuple[Event, ...]:
         If it cannot be read.
     """
     suffix = suffix_of(path, SUFFIXES, "events")
-    content = read_bytes(path, MAX_BYTES)
-    return _from_toml(content, path) if suffix == ".toml" else _from_csv(content, path)
+    text = read_text(path, MAX_BYTES)
+    return _from_toml(text, path) if suffix == ".toml" else _from_csv(text, path)
 
 
-def _from_toml(content: bytes, path: str | os.PathLike[str]) -> tuple[Event, ...]:
-    table, mistakes = check_document(EventsTable, parse_toml(content, path))
+def _from_toml(text: Text, path: str | os.PathLike[str]) -> tuple[Event, ...]:
+    table, mistakes = check_document(EventsTable, parse_toml(text, path))
     events = []
     for number, one in enumerate(table.event if table is not None and not mistakes else ()):
         try:
@@ -73,8 +74,8 @@ def _from_toml(content: bytes, path: str | os.PathLike[str]) -> tuple[Event, ...
     return tuple(events)
 
 
-def _from_csv(content: bytes, path: str | os.PathLike[str]) -> tuple[Event, ...]:
-    lines = check_text(content, path).decode().splitlines() or [""]
+def _from_csv(text: Text, path: str | os.PathLike[str]) -> tuple[Event, ...]:
+    lines = text.decode().splitlines() or [""]
     header = [name.strip() for name in lines[0].split(",")]
     for name in header:
         check_choice(f"{path}: line 1: a column", name, COLUMNS, FormatError)

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from trihex.errors import FormatError
 from trihex.files import read_bytes
-from trihex.formats.plans.npz import SCENARIO_ENTRIES, Entries, pack, scenario_arrays, scenario_from, unpack
+from trihex.formats.archive import Entries, pack, unpack
+from trihex.formats.scenarios.arrays import SCENARIO_ENTRIES, scenario_arrays, scenario_from
 from trihex.kernels.codes import LATE, WAIT
 from trihex.running import BROKEN, KINDS, Event, Occurrence, Run, Sensor
 

@@ -14,43 +14,38 @@ from numpy.typing import NDArray
 
 from trihex.areas import Area, Frame, Scenario, Tessellation, cells_from
 from trihex.errors import ScenarioError, TrihexError
-from trihex.files import new_file, read_bytes
-from trihex.formats.areas.letters import parse_letters
+from trihex.files import new_file
+from trihex.formats.areas.letters import draft_of_letters
 from trihex.formats.areas.options import AreaOptions
 from trihex.formats.draft import Draft
 from trihex.formats.scenarios.keys import AreaTable, ScenarioTable
 from trihex.formats.schema import check_document
 from trihex.formats.starts.starts import read_starts
-from trihex.formats.toml import MAX_BYTES, complaint, parse_toml
+from trihex.formats.text import Text
+from trihex.formats.toml import complaint, parse_toml
 
 Result = TypeVar("Result")
 
 
-def read_scenario_toml(
-    path: str | os.PathLike[str],
-    read_area_draft: Callable[[Path, AreaOptions], Draft],
-    content: bytes | None = None,
+def parse_scenario_toml(
+    text: Text, path: str | os.PathLike[str], read_area_draft: Callable[[Path, AreaOptions], Draft]
 ) -> Draft:
     """Return the draft that a file describes.
 
     Parameters
     ----------
+    text : Text
     path : path
         Other files are named relative to this one.
     read_area_draft : function
         Reads the file that ``area.path`` names.
-    content : bytes, optional
-        The content, where it has been read already.
 
     Raises
     ------
     FormatError
         With a line for each mistake: path of the key, rule, value, near name.
-    OSError
-        If the file cannot be read.
     """
-    document = parse_toml(read_bytes(path, MAX_BYTES) if content is None else content, path)
-    table, mistakes = check_document(ScenarioTable, document)
+    table, mistakes = check_document(ScenarioTable, parse_toml(text, path))
     if table is not None and not mistakes:
         draft = _draft_of(table, Path(path), read_area_draft, mistakes)
         if draft is not None and not mistakes:
@@ -124,7 +119,7 @@ def _area_draft(table: AreaTable, path: Path, read_area_draft: Callable[[Path, A
     elif options:
         raise ScenarioError(f"{min(options)} tells how the file at area.path is read; rows take a table area.frame")
     else:
-        draft = parse_letters("\n".join(table.rows or []).encode(), "area.rows", tessellation)
+        draft = draft_of_letters("\n".join(table.rows or []).encode(), "area.rows", tessellation)
     name = table.name or (draft.area.name if table.path is not None else path.stem)
     frame = draft.area.frame
     if frame is not None and table.frame is not None:

@@ -9,39 +9,34 @@ from numpy.typing import NDArray
 
 from trihex.areas import Area
 from trihex.errors import AreaError, FormatError
-from trihex.files import check_text, new_file
-from trihex.formats.table import parse_table
+from trihex.files import new_file
+from trihex.formats.registry import STARTS_HEADER, STARTS_HEADER_IN_METRES
+from trihex.formats.table import check_inside, parse_table
+from trihex.formats.text import Text
 
-HEADER = "x,y"
-HEADER_IN_METRES = "x_metres,y_metres"
 
-
-def parse_starts(content: bytes, path: str | os.PathLike[str], area: Area) -> NDArray[np.int64]:
+def parse_starts(text: Text, path: str | os.PathLike[str], area: Area) -> NDArray[np.int64]:
     """Return the cell numbers of the robots in the order of the file.
 
     Raises
     ------
     FormatError
-        If a line is no pair of whole numbers, or a cell lies outside `area`.
+        If a line is no pair of numbers, or a place lies outside `area`.
+    AreaError
+        If places are points in metres and `area` has no frame.
     """
-    table = parse_table(check_text(content, path), path, HEADER, {})
+    if text.partition(b"\n")[0].strip() == STARTS_HEADER_IN_METRES.encode():
+        return _parse_metres(text, path, area)
+    table = parse_table(text, path, STARTS_HEADER, {})
     check_inside(table[0], table[1], area, path)
     return area.xy_to_cell(table[0], table[1])
 
 
-def parse_starts_in_metres(content: bytes, path: str | os.PathLike[str], area: Area) -> NDArray[np.int64]:
-    """Return the numbers of the cells in which the points of a file with `HEADER_IN_METRES` lie, in its order.
-
-    Raises
-    ------
-    FormatError
-        If a line is no pair of numbers, or a point lies outside `area`.
-    AreaError
-        If `area` has no frame.
-    """
+def _parse_metres(text: Text, path: str | os.PathLike[str], area: Area) -> NDArray[np.int64]:
+    """Return the numbers of the cells in which the points of a file lie, in its order."""
     _ = area.metres  # asked first: without a frame no line is right
     places = []
-    for number, line in enumerate(check_text(content, path).decode().splitlines()[1:], start=2):
+    for number, line in enumerate(text.decode().splitlines()[1:], start=2):
         try:
             x, y = (float(part) for part in line.split(","))
         except ValueError:
@@ -59,21 +54,9 @@ def parse_starts_in_metres(content: bytes, path: str | os.PathLike[str], area: A
         raise
 
 
-def check_inside(x: NDArray[np.int64], y: NDArray[np.int64], area: Area, path: object) -> None:
-    """Raise FormatError for the first line of a table whose cell (x, y) lies outside `area`."""
-    outside = (x < 0) | (y < 0) | (x >= area.width) | (y >= area.height)
-    if outside.any():
-        row = int(np.argmax(outside))
-        raise FormatError(
-            f"{path}: line {row + 2}: cell ({x[row]}, {y[row]}) lies outside the area: "
-            f"x is 0..{area.width - 1}, y is 0..{area.height - 1}"
-        )
-
-
 def write_starts(area: Area, robots: NDArray[np.int64], path: str | os.PathLike[str]) -> None:
     """Write the cells of robots, given by number."""
     x, y = area.cell_to_xy(robots)
+    rows = [f"{one},{other}" for one, other in zip(x.tolist(), y.tolist(), strict=True)]
     with new_file(path) as part:
-        part.write_text(
-            "\n".join([HEADER, *(f"{one},{other}" for one, other in zip(x.tolist(), y.tolist(), strict=True)), ""])
-        )
+        part.write_text("\n".join([STARTS_HEADER, *rows, ""]))

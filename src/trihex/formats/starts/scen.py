@@ -9,13 +9,13 @@ from numpy.typing import NDArray
 
 from trihex.areas import Area
 from trihex.errors import FormatError
-from trihex.files import check_text
+from trihex.formats.text import Text
 
 _COLUMNS = ("bucket", "map", "width", "height", "start x", "start y", "goal x", "goal y", "optimal length")
 _WHOLE = (0, 2, 3, 4, 5, 6, 7)
 
 
-def parse_scen(content: bytes, path: str | os.PathLike[str], area: Area) -> NDArray[np.int64]:
+def parse_scen(text: Text, path: str | os.PathLike[str], area: Area) -> NDArray[np.int64]:
     """Return the cell numbers of the starts, in the order of the file; repeated ones are kept.
 
     Raises
@@ -23,7 +23,7 @@ def parse_scen(content: bytes, path: str | os.PathLike[str], area: Area) -> NDAr
     FormatError
         If a line is not of the form, or was made for an area of another size.
     """
-    lines = check_text(content, path).decode().splitlines() or [""]
+    lines = text.decode().splitlines() or [""]
     if lines[0].split()[:1] != ["version"]:
         raise FormatError(f"{path}: line 1: must be 'version 1', not {lines[0]!r:.60}")
     cells = np.empty(len(lines), dtype=np.int64)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from trihex.areas import Area
 from trihex.files import read_bytes
 from trihex.formats.recognise import format_of
-from trihex.formats.starts.csv import HEADER_IN_METRES, parse_starts, parse_starts_in_metres
+from trihex.formats.registry import FORMATS
 
 
 def read_starts(path: str | os.PathLike[str], area: Area) -> NDArray[np.int64]:
@@ -33,10 +33,8 @@ def read_starts(path: str | os.PathLike[str], area: Area) -> NDArray[np.int64]:
         If the file cannot be read.
     """
     content = read_bytes(path)
-    if format_of(content, path) == "scen":
-        from trihex.formats.starts.scen import parse_scen
-
-        return parse_scen(content, path, area)
-    if content.removeprefix(b"\xef\xbb\xbf").partition(b"\n")[0].strip() == HEADER_IN_METRES.encode():
-        return parse_starts_in_metres(content, path, area)
-    return parse_starts(content, path, area)
+    form = FORMATS[format_of(content, path)]
+    if form.holds != "starts":
+        form = FORMATS["starts"]  # it will tell what is wrong
+    cells: NDArray[np.int64] = form.parse(content, path, area)
+    return cells

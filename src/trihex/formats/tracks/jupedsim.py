@@ -27,7 +27,7 @@ CREATE INDEX frame_id_idx ON trajectory_data(frame, id);
 """
 
 
-def write_jupedsim(tracks: Tracks, area: Area, path: str | os.PathLike[str]) -> None:
+def write_jupedsim(tracks: Tracks, path: str | os.PathLike[str]) -> None:
     """Write a frame for each step, with all robots that are in the world in it, and the free cells as geometry.
 
     A robot is in the last frame when it arrives. The geometry is all free ground that is connected with a robot.
@@ -41,7 +41,7 @@ def write_jupedsim(tracks: Tracks, area: Area, path: str | os.PathLike[str]) -> 
     """
     if tracks.robot_count == 0:
         raise FormatError(f"{path}: trajectories need at least one robot")
-    wkt = _walkable(area, tracks)
+    wkt = _walkable(tracks.area, tracks)
     frames = int(tracks.step.max()) + 1
     ground = int.from_bytes(sha256(wkt.encode()).digest()[:8], signed=True)
     order = np.lexsort((tracks.robot, tracks.step))

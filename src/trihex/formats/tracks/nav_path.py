@@ -14,18 +14,21 @@ from trihex.formats.tracks.tracks import Tracks
 FRAME_ID = "map"
 
 
-def write_nav_path(tracks: Tracks, path: str | os.PathLike[str], *, is_json: bool) -> None:
-    """Write a message for each robot, in the order of their numbers, with a pose for each step, stamped from 0 on."""
+def write_nav_path_json(tracks: Tracks, path: str | os.PathLike[str]) -> None:
+    """Write a list of messages, one for each robot, with a pose for each step, stamped from 0 on."""
     with new_file(path) as part, open(part, "w", encoding="ascii", newline="\n") as file:
-        if is_json:
-            for robot in range(tracks.robot_count):
-                file.write("[\n" if robot == 0 else ",\n")
-                file.write(json.dumps(_message(tracks, robot)))
-            file.write("\n]\n" if tracks.robot_count else "[]\n")
-        else:
-            for robot in range(tracks.robot_count):
-                file.write(f"---  # robot {robot}\n")
-                file.writelines(_yaml_lines(_message(tracks, robot), ""))
+        for robot in range(tracks.robot_count):
+            file.write("[\n" if robot == 0 else ",\n")
+            file.write(json.dumps(_message(tracks, robot)))
+        file.write("\n]\n" if tracks.robot_count else "[]\n")
+
+
+def write_nav_path_yaml(tracks: Tracks, path: str | os.PathLike[str]) -> None:
+    """Write a document with the message of each robot, with a pose for each step, stamped from 0 on."""
+    with new_file(path) as part, open(part, "w", encoding="ascii", newline="\n") as file:
+        for robot in range(tracks.robot_count):
+            file.write(f"---  # robot {robot}\n")
+            file.writelines(_yaml_lines(_message(tracks, robot), ""))
 
 
 def _message(tracks: Tracks, robot: int) -> dict[str, Any]:

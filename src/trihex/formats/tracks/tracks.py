@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from trihex.areas import Area
 from trihex.errors import FormatError
-from trihex.plans import Plan
+from trihex.plans import Plan, cells_of_rows
 from trihex.record import Record, read_only
 
 
@@ -21,6 +22,7 @@ class Tracks(Record):
 
     Attributes
     ----------
+    area : Area
     seconds_per_step : float
     first_row : int64 array, shape (robots + 1,)
     step : int64 array, shape (rows,)
@@ -32,6 +34,7 @@ class Tracks(Record):
     arrived : bool array, shape (robots,)
     """
 
+    area: Area
     seconds_per_step: float
     first_row: NDArray[np.int64]
     step: NDArray[np.int64]
@@ -97,6 +100,7 @@ def make_tracks(plan: Plan, speed: float = 1.0) -> Tracks:
     cells = cells_of_rows(plan, first_row)
     x, y = area.cell_to_metres(cells)
     return Tracks(
+        area,
         area.tessellation.longest_move * frame.cell_size / speed,
         first_row,
         np.arange(cells.size) - np.repeat(first_row[:-1], length + 1),
@@ -105,17 +109,6 @@ def make_tracks(plan: Plan, speed: float = 1.0) -> Tracks:
         _yaw(x, y, first_row, frame.yaw),
         plan.arrived,
     )
-
-
-def cells_of_rows(plan: Plan, first_row: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return the cell number of each robot at each step, robot by robot; robot r from row ``first_row[r]`` on."""
-    cells = np.empty(first_row[-1], dtype=np.int64)
-    length = np.diff(first_row) - 1
-    for step, cell_of_robot in enumerate(plan.cells_by_step()):
-        acts = length >= step
-        cells[first_row[:-1][acts] + step] = cell_of_robot[acts]
-    cells[first_row[1:] - 1] = plan.last_cell_of_robot  # cells_by_step has -1 for those that have arrived
-    return cells
 
 
 def _yaw(

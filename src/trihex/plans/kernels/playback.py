@@ -1,82 +1,50 @@
 """Playback: what all robots together do in each step of a plan."""
 
-from numba import njit, types
+from typing import NamedTuple
 
-from trihex.kernels.codes import JUMP, WAIT
-from trihex.kernels.signatures import IN_BOOL, IN_I32, IN_I64, IN_U8, OUT_I64, TABLE_I32
+from numba import types
+
+from trihex.kernels.actions import ACTIONS, site_after
+from trihex.kernels.codes import JUMP, NOT_REACHED, WAIT
+from trihex.kernels.signatures import IN_BOOL, IN_I32, OUT_I64, declared, kernel
 
 
-@njit(
-    types.void(
-        IN_I32,
-        IN_U8,
-        IN_I64,
-        TABLE_I32,
-        IN_I32,
-        IN_I64,
-        IN_I32,
-        IN_BOOL,
-        IN_I32,
-        types.int64,
-        types.int64,
-        OUT_I64,
-        OUT_I64,
-        OUT_I64,
-        OUT_I64,
-        OUT_I64,
-    ),
-    cache=True,
-    nogil=True,
-)
-def count_steps(
-    start,
-    actions,
-    first_action,
-    offset,
-    cost,
-    jump_at,
-    jump_to,
-    arrived,
-    distance,
-    not_reached,
-    waiting_cost,
-    moving,
-    waiting,
-    arriving,
-    spent,
-    lost,
-):
-    """Add up for each step: robots that move, wait, arrive; the time spent, and how much of it was no way forward.
+class StepSums(NamedTuple):
+    """Sums over all robots by step, from 0 to the last."""
 
-    The counts are of all robots, the times of those that arrive only. `distance` is the N-scheme; an action loses
-    what it costs less what it brings its robot nearer.
+    moving: OUT_I64  # robots that move in the step
+    waiting: OUT_I64  # robots that wait in it
+    arriving: OUT_I64  # robots whose last step it is
+    spent: OUT_I64  # what the step costs those that arrive
+    lost: OUT_I64  # how much of that brings them no nearer
+
+
+@kernel(types.void(IN_I32, ACTIONS, IN_I32, types.int64, IN_BOOL, IN_I32, declared(StepSums)))
+def count_steps(start, actions, cost, waiting_cost, arrived, distance, sums):
+    """Add up for each step who moves, waits and arrives, the time spent, and how much of it was no way forward.
+
+    The counts are of all robots, the times of those that arrive only. `cost` is that of each direction, `distance`
+    the N-scheme by site; an action loses what it costs less what it brings its robot nearer; a jump costs nothing.
     """
-    jump = 0
-    for r in range(len(start)):
-        at = start[r]
-        first = first_action[r]
-        for i in range(first, first_action[r + 1]):
+    for robot in range(len(start)):
+        site, arrives = start[robot], arrived[robot]
+        first, last = actions.first[robot], actions.first[robot + 1]
+        for i in range(first, last):
             step = i - first + 1
-            action = actions[i]
-            c = waiting_cost
-            to = at
+            action = actions.action[i]
+            to = site
+            price = waiting_cost
             if action == WAIT:
-                waiting[step] += 1
+                sums.waiting[step] += 1
             else:
-                moving[step] += 1
-                if action == JUMP:
-                    while jump_at[jump] < i:
-                        jump += 1
-                    to = jump_to[jump]
-                    c = 0
-                else:
-                    to = at + offset[at & 1, action]
-                    c = cost[action]
-            if arrived[r]:
-                spent[step] += c
-                lost[step] += c
-                if distance[at] != not_reached and distance[to] != not_reached:
-                    lost[step] += distance[to] - distance[at]
-            at = to
-        if arrived[r]:
-            arriving[first_action[r + 1] - first] += 1
+                sums.moving[step] += 1
+                to = site_after(site, i, actions)
+                price = 0 if action == JUMP else cost[action]
+            if arrives:
+                sums.spent[step] += price
+                sums.lost[step] += price
+                if distance[site] != NOT_REACHED and distance[to] != NOT_REACHED:
+                    sums.lost[step] += distance[to] - distance[site]
+            site = to
+        if arrives:
+            sums.arriving[last - first] += 1

@@ -1,65 +1,68 @@
-"""Replay of actions: where they lead and what they cost."""
+"""Replay: robots along their actions, to where these lead, at what cost, through which cells."""
 
-from numba import njit, types
+from typing import NamedTuple
 
+from numba import types
+
+from trihex.kernels.actions import ACTIONS, site_after
 from trihex.kernels.codes import JUMP, WAIT
-from trihex.kernels.signatures import IN_I32, IN_I64, IN_U8, OUT_I32, OUT_I64, TABLE_I32
+from trihex.kernels.signatures import IN_I32, OUT_I32, OUT_I64, declared, kernel
 
 
-@njit(
-    types.void(IN_I32, IN_U8, IN_I64, TABLE_I32, IN_I32, IN_I64, IN_I32, OUT_I32, OUT_I64, OUT_I64),
-    cache=True,
-    nogil=True,
-)
-def replay(start, actions, first_action, offset, cost, jump_at, jump_to, site, distance, waits):
-    """Follow each robot to its last action: its site, the cost of its moves (a jump costs 0), its number of waits.
+class Replayed(NamedTuple):
+    """What became of each robot."""
 
-    Robot r has the actions ``actions[first_action[r] : first_action[r + 1]]``; `jump_at` (ascending, with a last
-    entry beyond all actions) and `jump_to` tell where jumps lead.
-    """
-    jump = 0
-    for r in range(len(start)):
-        at = start[r]
-        d = 0
-        w = 0
-        for i in range(first_action[r], first_action[r + 1]):
-            action = actions[i]
+    site: OUT_I32  # where its last action leads
+    distance: OUT_I64  # the cost of its moves; a jump costs nothing
+    waits: OUT_I64  # how often it waited
+
+
+@kernel(types.void(IN_I32, ACTIONS, IN_I32, declared(Replayed)))
+def replay(start, actions, cost, replayed):
+    """Follow each robot from its start to its last action; `cost` is that of each direction."""
+    for robot in range(len(start)):
+        site = start[robot]
+        distance = 0
+        waits = 0
+        for i in range(actions.first[robot], actions.first[robot + 1]):
+            action = actions.action[i]
             if action == WAIT:
-                w += 1
-            elif action == JUMP:
-                while jump_at[jump] < i:
-                    jump += 1
-                at = jump_to[jump]
-            else:
-                d += cost[action]
-                at += offset[at & 1, action]
-        site[r] = at
-        distance[r] = d
-        waits[r] = w
+                waits += 1
+            elif action != JUMP:
+                distance += cost[action]
+            site = site_after(site, i, actions)
+        replayed.site[robot] = site
+        replayed.distance[robot] = distance
+        replayed.waits[robot] = waits
 
 
-@njit(
-    types.void(IN_U8, IN_I64, types.int64, TABLE_I32, IN_I64, IN_I32, OUT_I32),
-    cache=True,
-    nogil=True,
-)
-def advance(actions, first_action, step, offset, jump_at, jump_to, site):
-    """Move `site` of every robot from `step` to ``step + 1``; robots without further actions stay."""
-    for r in range(len(site)):
-        i = first_action[r] + step
-        if i >= first_action[r + 1]:
+@kernel(types.void(ACTIONS, types.int64, types.int64, types.int64, types.int64, OUT_I32))
+def follow(actions, first_robot, last_robot, step, next_step, site):
+    """Move `site` of robots first_robot..last_robot-1 from `step` to `next_step`, robot by robot.
+
+    One robot's actions lie side by side: with 10^5 robots this takes half the time of going step by step if the two are
+    20 steps apart, and a quarter if they are 200 apart.
+    """
+    for robot in range(first_robot, last_robot):
+        first = actions.first[robot] + step
+        last = actions.first[robot] + next_step
+        if last > actions.first[robot + 1]:
+            last = actions.first[robot + 1]
+        if first >= last:
             continue
-        action = actions[i]
-        if action == WAIT:
-            continue
-        if action == JUMP:
-            low, high = 0, len(jump_at)
-            while low < high:
-                middle = (low + high) // 2
-                if jump_at[middle] < i:
-                    low = middle + 1
-                else:
-                    high = middle
-            site[r] = jump_to[low]
-        else:
-            site[r] += offset[site[r] & 1, action]
+        at = site[robot]
+        for i in range(first, last):
+            at = site_after(at, i, actions)
+        site[robot] = at
+
+
+@kernel(types.void(IN_I32, ACTIONS, types.int64, types.int64, OUT_I64))
+def count_visits(start, actions, first_robot, last_robot, visits):
+    """Add to `visits` (by site) the start and every move of robots first_robot..last_robot-1."""
+    for robot in range(first_robot, last_robot):
+        site = start[robot]
+        visits[site] += 1
+        for i in range(actions.first[robot], actions.first[robot + 1]):
+            if actions.action[i] != WAIT:
+                site = site_after(site, i, actions)
+                visits[site] += 1

@@ -1,0 +1,74 @@
+"""Scenario as arrays: the entries that it takes in an .npz file."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trihex.areas import Area, Frame, Scenario, Tessellation
+from trihex.errors import FormatError
+from trihex.formats.archive import Entries
+
+SCENARIO_ENTRIES: Entries = {
+    "tessellation": ("U", 0),
+    "neighbourhood": ("U", 0),
+    "costs": ("U", 0),
+    "area": ("U", 0),
+    "barriers": ("b", 2),
+    "frame": ("f", 1),  # cell size, origin x and y, yaw, robot radius; or nothing
+    "destinations": ("i", 1),
+    "robots": ("i", 1),
+    "waiting_cost": ("i", 0),
+    "crossing": ("U", 0),
+    "corners": ("U", 0),
+    "destination_capacity": ("i", 0),  # 0: any number
+    "seed": ("i", 0),  # -1: none
+}
+
+
+def scenario_arrays(scenario: Scenario) -> dict[str, Any]:
+    """Return all of a scenario as entries of a file; `scenario_from` reads them."""
+    area, tessellation = scenario.area, scenario.area.tessellation
+    return {
+        "tessellation": tessellation.name,
+        "neighbourhood": tessellation.neighbourhood,
+        "costs": tessellation.costs,
+        "area": area.name,
+        "barriers": area.barriers,
+        "frame": np.array([] if (at := area.frame) is None else [at.cell_size, *at.origin, at.yaw, at.robot_radius]),
+        "destinations": scenario.destinations,
+        "robots": scenario.robots,
+        "waiting_cost": scenario.waiting_cost,
+        "crossing": scenario.crossing,
+        "corners": scenario.corners,
+        "destination_capacity": scenario.entry_limit,
+        "seed": -1 if scenario.seed is None else scenario.seed,
+    }
+
+
+def scenario_from(arrays: dict[str, Any], path: object) -> Scenario:
+    """Return the scenario in the entries of a file."""
+    text = {name: arrays[name] for name, (kind, _) in SCENARIO_ENTRIES.items() if kind == "U"}
+    seed, capacity = int(arrays["seed"]), int(arrays["destination_capacity"])
+    tessellation = Tessellation(text["tessellation"], text["neighbourhood"], text["costs"])
+    return Scenario(
+        Area(tessellation, arrays["barriers"], text["area"], _frame(arrays["frame"], path)),
+        arrays["destinations"],
+        arrays["robots"],
+        int(arrays["waiting_cost"]),
+        text["crossing"],
+        text["corners"],
+        None if capacity == 0 else capacity,
+        None if seed == -1 else seed,
+    )
+
+
+def _frame(numbers: NDArray[np.float64], path: object) -> Frame | None:
+    if numbers.size not in (0, 5):
+        raise FormatError(f"{path}: entry 'frame' must hold 5 numbers or none, not {numbers.size}")
+    if numbers.size == 0:
+        return None
+    cell_size, x, y, yaw, robot_radius = numbers.tolist()
+    return Frame(cell_size, (x, y), yaw, robot_radius)
