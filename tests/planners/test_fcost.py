@@ -6,7 +6,7 @@ import pytest
 import trihex as th
 from tests.strategies import random_scenario
 from trihex.planners import make_plan
-from trihex.planners.fcost import Slots
+from trihex.planners.slots import Slots
 
 
 def shortest_path(n_scheme, d_scheme, cell):
