@@ -141,14 +141,18 @@ def make_ways(scenario: Scenario) -> Any:
     from trihex.planners.kernels.ways import ROW, Ways
 
     layout, tessellation = scenario.area.layout, scenario.area.tessellation
-    tables = (layout.offset_of_direction, layout.vertex_of_direction, layout.back_of_direction)
-    many = (1 << ROW) - tessellation.direction_count
-    offset, vertex, back = (np.pad(table, ((0, 0), (0, many))).astype(np.int32).reshape(-1) for table in tables)
+    offset, vertex, back = np.zeros((3, 2, 1 << ROW), dtype=np.int32)
+    for wide, table in (
+        (offset, layout.offset_of_direction),
+        (vertex, layout.vertex_of_direction),
+        (back, layout.back_of_direction),
+    ):
+        wide[:, : tessellation.direction_count] = table
     return given(
         Ways,
-        offset=offset,
-        vertex=vertex,
-        back=back,
+        offset=offset.reshape(-1),
+        vertex=vertex.reshape(-1),
+        back=back.reshape(-1),
         cost=tessellation.cost_of_direction,
         waiting_cost=scenario.waiting_cost,
         count=tessellation.direction_count,

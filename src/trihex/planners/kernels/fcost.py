@@ -170,7 +170,7 @@ def weigh(rule, ways, sites, slots, asking, traffic, robots, rows):
     arrives in bounded time, and then there is another. Robots lose the cost of waits, and of moves beyond what they
     come nearer.
     """
-    first_row = 0
+    first_row = np.int64(0)  # no literal, for which numba would compile all helpers anew
     loss = np.int64(0)
     for region in robots.regions:
         _begin(region, first_row, rule, sites, slots, robots, asking, rows)

@@ -256,8 +256,8 @@ def descend(ways, cells, asleep, traffic, robots, rows, ranks, awake):
     something comes nearer. ``asleep[robot]`` is kept from block to block; `ranks` and `awake` are scratch, with room
     for all of a region.
     """
-    first_row = 0
-    waits = 0
+    first_row = np.int64(0)  # no literal, for which numba would compile all helpers anew
+    waits = np.int64(0)
     for region in robots.regions:
         count = going = robots.count_of_region[region]
         _begin(region, first_row, asleep, ways, cells, traffic, robots, rows, ranks, awake)
