@@ -63,6 +63,8 @@ class Slots:
             depth[:] = depth.max()
         self.first_slot = np.append(1, 1 + np.cumsum(depth))
         self.branch_of_slot = np.append(-1, np.repeat(np.arange(depth.size), depth)).astype(np.int32)
+        #: Of each branch where its lines end, and the last slot that holds a robot, kept by the kernel `weigh`; of each
+        #: slot how many robots are in it, and how many one finds there.
         self.lined_end = self.first_slot.copy()
         self.highest = np.zeros(self.first_slot.size, dtype=np.int64)
         room = self.first_slot[-1] + 1

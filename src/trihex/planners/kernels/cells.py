@@ -32,6 +32,15 @@ CELLS = declared(Cells)
 
 
 @HELPER
+def may_go(flags, k):
+    """Tell, by the flags of a cell, whether a robot stands there to whom direction `k` is one of the best; as 1 or 0.
+
+    Not before the cell is checked: until then the direction may lead to another region.
+    """
+    return (flags >> k) & (flags >> 12) & (flags >> 14) & 1
+
+
+@HELPER
 def _find_region(site, cells, ways):
     """Fill and return the region of a site: that of the destination at the end of its first best directions."""
     at = site

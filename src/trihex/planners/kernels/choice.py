@@ -38,21 +38,21 @@ class Rule(NamedTuple):
 class Turn(NamedTuple):
     """The region under way, and the step."""
 
-    captain: types.int64
-    first_slot: types.int64
-    end_slot: types.int64
-    first_end: types.int64  # what the destinations have in place of slots
-    last_end: types.int64
-    now: Now
+    captain: types.int64  # the robot that is asked first, and descends
+    first_slot: types.int64  # the region has the slots from this one on
+    end_slot: types.int64  # to the one before this
+    first_end: types.int64  # what its destinations have in place of a slot: from this number on
+    last_end: types.int64  # to this one
+    now: Now  # the step
 
 
 class Choice(NamedTuple):
     """What a robot would do."""
 
-    direction: types.int64  # or to wait
-    to: types.int64  # site
-    via: types.int64  # vertex, 0: none
-    fcost: types.int64
+    direction: types.int64  # that it would take, or `WAIT`
+    to: types.int64  # the site to which that leads
+    via: types.int64  # the vertex that it passes, 0: none
+    fcost: types.int64  # of that direction
     best: types.int64  # the least Fcost of all that was weighed, free or not
 
 
@@ -69,6 +69,7 @@ def _is_of_region(slot, turn):
 
 @HELPER
 def _slot_of(site, ways, sites, slots):
+    """Return the slot of a site, found now if nobody has asked for it before."""
     slot = np.int64(sites.slot[_U(site)])
     return slot if slot != 0 else np.int64(find_slot(site, ways, sites, slots))
 

@@ -27,7 +27,7 @@ from trihex.kernels.signatures import (
     declared,
     kernel,
 )
-from trihex.planners.kernels.cells import CELLS, CHECKED, DESTINATION, DIRECTIONS, OCCUPIED, WATCHED, check
+from trihex.planners.kernels.cells import CELLS, CHECKED, DESTINATION, DIRECTIONS, OCCUPIED, WATCHED, check, may_go
 from trihex.planners.kernels.robots import ROBOTS
 from trihex.planners.kernels.rows import ROWS
 from trihex.planners.kernels.traffic import TRAFFIC, Now, is_full, is_passed, note_entry, note_passing
@@ -51,8 +51,8 @@ class Ranks(NamedTuple):
 class Awake(NamedTuple):
     """Who of the region under way is to be asked, a bit for each rank."""
 
-    asked: OUT_I64  # still in this step
-    coming: OUT_I64  # in the next
+    asked: OUT_I64  # still to be asked in this step
+    coming: OUT_I64  # to be asked in the next
 
 
 RANKS, AWAKE = declared(Ranks), declared(Awake)
@@ -90,7 +90,7 @@ def _find_way(rank, at, ways, cells, traffic, ranks, now):
 
 @HELPER
 def _stand(rank, at, flags, cells, traffic, ranks):
-    """Let a robot stand in a cell, and give that these flags."""
+    """Let a robot stand in a cell that has these flags so far."""
     cells.flags[_U(at)] = flags | OCCUPIED
     traffic.robot_at[_U(at)] = rank
     ranks.site[_U(rank)] = at
@@ -124,7 +124,7 @@ def _find_taker(hole, ways, cells, traffic, ranks, awake, now):
         beside = neighbour(hole, j, ways)
         flags = np.int64(cells.flags[_U(beside)])
         k = back_of(hole, j, ways)
-        if not (flags >> k) & (flags >> 12) & (flags >> 14) & 1:  # its way leads here, occupied, checked
+        if not may_go(flags, k):
             continue
         rank = np.int64(traffic.robot_at[_U(beside)])
         if ranks.acted[_U(rank)] == now.s:

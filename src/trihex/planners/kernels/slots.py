@@ -25,24 +25,24 @@ LEAD = 1 << 30
 class Sites(NamedTuple):
     """What is known of each site."""
 
-    distance: IN_I32  # V
-    moves: IN_U16  # bits of the directions that are open
-    best: IN_U16  # bits of the best ones; the first of them makes the forest
+    distance: IN_I32  # V, to the nearest destination, or along lanes
+    moves: IN_U16  # the directions that are open, a bit each
+    best: IN_U16  # the best of them, a bit each; the first makes the forest
     slot: OUT_I32  # 0 while unknown; -1 - (number of the destination) at destinations
 
 
 class Slots(NamedTuple):
     """Branches, region by region; their slots, from 1, branch by branch; and the robots in them."""
 
-    branch_of_end: IN_I32  # number of a destination * directions + last direction -> branch
-    first_slot: IN_I64  # of a branch; and one entry more
-    branch_of_slot: IN_I32
+    branch_of_end: IN_I32  # the branch of each (number of a destination * directions + last direction)
+    first_slot: IN_I64  # branch b has the slots first_slot[b] .. first_slot[b + 1] - 1
+    branch_of_slot: IN_I32  # the branch to which a slot belongs
     count: OUT_I32  # how many robots are in a slot
     line: OUT_I32  # how many robots one finds there, see `line_up` and `count_meetings`
     highest: OUT_I64  # the last slot of a branch that held a robot when the block began, 0: none
     lined_end: OUT_I64  # where in a branch lines end: from there on they are 0
-    first_branch_of_region: IN_I64
-    first_end_of_region: IN_I64  # destinations are numbered by region, too
+    first_branch_of_region: IN_I64  # region r has the branches from this one to that of r + 1
+    first_end_of_region: IN_I64  # and its destinations have the numbers from this one on
 
 
 SITES, SLOTS = declared(Sites), declared(Slots)

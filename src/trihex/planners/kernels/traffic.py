@@ -13,7 +13,7 @@ _U = np.uint64
 class Traffic(NamedTuple):
     """What robots see of each other, by site or lattice vertex."""
 
-    robot_at: OUT_I32  # who stands at a site, 0: nobody
+    robot_at: OUT_I32  # who stands at a site, 0: nobody; `greedy` leaves there the rank of who stood there last
     passed: OUT_I64  # number of the block in which a vertex was passed last, above 32 bits for the steps of the block
     entered_step: OUT_I32  # when a destination was entered last
     entered_count: OUT_I32  # by how many robots in that step
