@@ -1,5 +1,6 @@
 """Signatures: the types that kernels declare, read-only where they read, plain where they fill; tuples with names."""
 
+from functools import cache
 from typing import Any
 
 from numba import njit, types
@@ -78,13 +79,27 @@ def given(noun: Any, *fields: Any, **named: Any) -> Any:
     On its own an array that can be written to is taken where a read-only one is declared, but not in a tuple.
     """
     values = noun(*fields, **named)
-    return noun(*(_fitted(value, wanted) for value, wanted in zip(values, noun.__annotations__.values(), strict=True)))
+    return noun._make([fit(value) for fit, value in zip(_fits_of(noun), values, strict=True)])
 
 
-def _fitted(value, wanted):
+@cache
+def _fits_of(noun):
+    """Return what fits each field; found once, because to ask for the class of numba's types takes microseconds."""
+    return [_fit_of(wanted) for wanted in noun.__annotations__.values()]
+
+
+def _fit_of(wanted):
     if isinstance(wanted, types.Array):
-        if not wanted.mutable and value.flags.writeable:
-            value = value.view()
-            value.flags.writeable = False
-        return value
-    return bool(value) if wanted is types.boolean else int(value) if isinstance(wanted, types.Integer) else value
+        return _as_it_is if wanted.mutable else _for_reading
+    return bool if wanted is types.boolean else int if isinstance(wanted, types.Integer) else _as_it_is
+
+
+def _as_it_is(value):
+    return value
+
+
+def _for_reading(array):
+    if array.flags.writeable:
+        array = array.view()
+        array.flags.writeable = False
+    return array

@@ -40,31 +40,44 @@ class Crowd:
 
     def __post_init__(self) -> None:
         size, layout = self.robot.size, self.scenario.area.layout
-        has_capacity = self.scenario.destination_capacity is not None
-        forbids = self.rules[0] < self.scenario.area.tessellation.direction_count
+        enters = layout.size if self.scenario.entry_limit else 1
         #: The step in which each robot arrives, 0 until then.
         self.arrival = np.zeros(size, dtype=np.int64)
-        self.row_of_robot = np.zeros(size, dtype=np.int32)
-        self.asked = np.zeros(size, dtype=np.int32)
         self.robot_at = np.zeros(layout.size, dtype=np.int32)
         self.robot_at[self.site_of_robot] = np.arange(size)
         #: For each lattice vertex in which steps of which block it was passed; and of each site when and by how many
         #: robots it was last entered.
-        self.passed = np.zeros(layout.size if forbids else 1, dtype=np.int64)
-        self.entered = [np.zeros(layout.size if has_capacity else 1, dtype=np.int32) for _ in range(2)]
+        self.passed = np.zeros(layout.size if self.scenario.forbids_crossing else 1, dtype=np.int64)
+        self.entered_step, self.entered_count = np.zeros(enters, dtype=np.int32), np.zeros(enters, dtype=np.int32)
 
     @property
     def going(self) -> int:
         """How many robots are still under way."""
         return int(self.count_of_region.sum())
 
-    @property
-    def rules(self) -> tuple[int, int]:
-        """Return the first vertex move that nobody may cross, and the capacity of destinations (0: any)."""
-        tessellation = self.scenario.area.tessellation
-        forbids = self.scenario.crossing == "forbid"
-        first = tessellation.edge_count if forbids else tessellation.direction_count
-        return first, self.scenario.destination_capacity or 0
+    def for_kernels(self, regions: NDArray[np.int64]) -> tuple[Any, Any]:
+        """Return `Traffic` and `Robots` as kernels know them, to let the robots of some regions act."""
+        from trihex.kernels.signatures import given
+        from trihex.planners.kernels.robots import Robots
+        from trihex.planners.kernels.traffic import Traffic
+
+        traffic = given(
+            Traffic,
+            robot_at=self.robot_at,
+            passed=self.passed,
+            entered_step=self.entered_step,
+            entered_count=self.entered_count,
+        )
+        robots = given(
+            Robots,
+            regions=regions,
+            first_of_region=self.first_of_region,
+            count_of_region=self.count_of_region,
+            listed=self.listed,
+            site=self.site_of_robot,
+            arrival=self.arrival,
+        )
+        return traffic, robots
 
     def parts(self, steps: int) -> list[NDArray[np.int64]]:
         """Part the regions that hold robots so that `steps` steps of each part are one call of a kernel."""
@@ -122,12 +135,27 @@ def _sorted_by(values: NDArray[Any], order: NDArray[np.int64]) -> NDArray[np.int
     return np.asarray(order[keys & 0x7FFFFFFF])
 
 
-def tables_of(scenario: Scenario) -> list[NDArray[np.int32]]:
-    """Return what a move adds to the site, what to the site makes its vertex, and the direction of the move back.
+def make_ways(scenario: Scenario) -> Any:
+    """Return `Ways` as kernels know them: the moves of a scenario, and its rules."""
+    from trihex.kernels.signatures import given
+    from trihex.planners.kernels.ways import ROW, Ways
 
-    Each flat, with a row of 16 directions for each parity of sites.
-    """
-    layout = scenario.area.layout
-    tables = (layout.offset_of_direction, layout.vertex_of_direction, layout.back_of_direction)
-    many = 16 - tables[0].shape[1]
-    return [np.pad(table, ((0, 0), (0, many))).astype(np.int32).reshape(-1) for table in tables]
+    layout, tessellation = scenario.area.layout, scenario.area.tessellation
+    offset, vertex, back = np.zeros((3, 2, 1 << ROW), dtype=np.int32)
+    for wide, table in (
+        (offset, layout.offset_of_direction),
+        (vertex, layout.vertex_of_direction),
+        (back, layout.back_of_direction),
+    ):
+        wide[:, : tessellation.direction_count] = table
+    return given(
+        Ways,
+        offset=offset.reshape(-1),
+        vertex=vertex.reshape(-1),
+        back=back.reshape(-1),
+        cost=tessellation.cost_of_direction,
+        waiting_cost=scenario.waiting_cost,
+        count=tessellation.direction_count,
+        first_vertex_move=scenario.first_vertex_move,
+        entry_limit=scenario.entry_limit,
+    )

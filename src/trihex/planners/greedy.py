@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.fields import NScheme, make_d_scheme
-from trihex.planners.crowd import make_crowd, regions_of, tables_of
+from trihex.planners.crowd import make_crowd, make_ways, regions_of
 from trihex.planners.recording import Progress, Recording
 from trihex.plans import Arrivals, Plan
 
@@ -38,42 +38,40 @@ def run_greedy(
     n_scheme: NScheme, keeps_actions: bool, progress: Progress | None = None, limit: float = float("inf")
 ) -> Recording:
     """Simulate until all have arrived, or the total time is sure to be `limit` or more."""
+    from trihex.kernels.signatures import given
     from trihex.planners.kernels import greedy as kernels
+    from trihex.planners.kernels.cells import DESTINATION, OCCUPIED, Cells, find_regions
 
     scenario = n_scheme.scenario
     layout = scenario.area.layout
     destinations = layout.cell_to_site(scenario.destinations)
-    cells = make_d_scheme(n_scheme).directions_of_site.copy()
+    flags = make_d_scheme(n_scheme).directions_of_site.copy()
     region_of_site = np.zeros(layout.size, dtype=np.int32)
     region_of_site[destinations] = regions_of(scenario) + 1
+    cells, ways = given(Cells, flags=flags, region=region_of_site), make_ways(scenario)
 
-    tables = tables_of(scenario)
-
-    def find_regions(starts: NDArray[np.int32]) -> NDArray[np.int64]:
+    def regions_of_starts(starts: NDArray[np.int32]) -> NDArray[np.int64]:
         region = np.empty(starts.size, dtype=np.int32)
-        kernels.find_regions(starts, cells, tables[0], region_of_site, region)
+        find_regions(starts, cells, ways, region)
         return region.astype(np.int64) - 1
 
-    crowd = make_crowd(n_scheme, find_regions)
-    cells[destinations] = kernels.DESTINATION
-    cells[crowd.site_of_robot[1:]] |= np.uint16(kernels.OCCUPIED)
+    crowd = make_crowd(n_scheme, regions_of_starts)
+    flags[destinations] = DESTINATION
+    flags[crowd.site_of_robot[1:]] |= np.uint16(OCCUPIED)
     asleep = np.zeros(crowd.robot.size, dtype=np.uint8)
+    most = int(crowd.count_of_region.max())
+    ranks = given(
+        kernels.Ranks,
+        site=np.empty(most, dtype=np.int32),
+        first_way=np.empty(most, dtype=np.uint8),
+        acted=np.empty(most, dtype=np.int8),
+    )
+    words = (most >> 6) + 1
+    awake = given(kernels.Awake, asked=np.empty(words, dtype=np.int64), coming=np.empty(words, dtype=np.int64))
     recording = Recording(crowd, keeps_actions)
-
-    def simulate(
-        block: int,
-        first_step: int,
-        steps: int,
-        regions: NDArray[np.int64],
-        robot_of_row: NDArray[np.int32],
-        action_of_row: NDArray[np.uint8],
-    ) -> None:
-        kernels.descend(
-            *(*tables, scenario.area.tessellation.direction_count, *crowd.rules, block, first_step, steps),
-            *(cells, region_of_site, crowd.robot_at, crowd.passed, *crowd.entered),
-            *(regions, crowd.first_of_region, crowd.count_of_region, crowd.listed, crowd.site_of_robot, asleep),
-            *(robot_of_row, action_of_row, crowd.arrival, scenario.waiting_cost, recording.lost),
-        )
-
-    recording.run(simulate, progress, limit)
+    recording.run(
+        lambda traffic, robots, rows: kernels.descend(ways, cells, asleep, traffic, robots, rows, ranks, awake),
+        progress,
+        limit,
+    )
     return recording

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,15 +20,6 @@ _SMALL = 1 << 26
 _PART = 0.9
 
 
-class Rows(NamedTuple):
-    """The actions of some robots during a block of steps."""
-
-    robot_of_row: NDArray[np.int32]
-    action_of_row: NDArray[np.uint8]
-    steps: int
-    first_step: int
-
-
 class Recording:
     """What the robots of a crowd have done so far.
 
@@ -42,30 +33,30 @@ class Recording:
     def __init__(self, crowd: Crowd, keeps_actions: bool) -> None:
         self.crowd = crowd
         self.keeps_actions = keeps_actions
-        self._rows: list[Rows] = []
+        self._rows: list[Any] = []  # `Rows` of kernels
         self._kept = 0  # actions in rows
         tessellation = crowd.scenario.area.tessellation
         self._cost_of_action = np.full(WAIT + 1, crowd.scenario.waiting_cost, dtype=np.int64)
         self._cost_of_action[: tessellation.direction_count] = tessellation.cost_of_direction
         self._time = np.zeros(crowd.robot.size, dtype=np.int64)
         #: What all robots have lost: the cost of waits, and of moves beyond what they came nearer.
-        self.lost = np.zeros(1, dtype=np.int64)
+        self.lost = 0
 
     @property
     def total_time(self) -> int:
         """Sum of t_r so far and of the distances that are left, which can only grow."""
-        return self.crowd.total_distance + int(self.lost[0])
+        return self.crowd.total_distance + self.lost
 
     @property
     def is_over(self) -> bool:
         """Whether all have arrived."""
         return self.crowd.going == 0
 
-    def run(self, simulate: Callable[..., None], progress: Progress | None, limit: float) -> None:
+    def run(self, act: Callable[[Any, Any, Any], int], progress: Progress | None, limit: float) -> None:
         """Simulate until all have arrived, or the total time is sure to be `limit` or more.
 
-        ``simulate(block, first_step, steps, regions, robot_of_row, action_of_row)`` lets the robots of some regions
-        act for a block of steps, and adds to `lost`.
+        ``act(traffic, robots, rows)`` is a kernel that lets the robots of some regions act for a block of steps, fills
+        `rows` and returns what they lose; `Traffic`, `Robots` and `Rows` are nouns of kernels.
 
         Raises
         ------
@@ -79,9 +70,8 @@ class Recording:
             steps, block = crowd.steps_of_block(), block + 1
             self._check_memory(steps)
             for regions in crowd.parts(steps):
-                count = int(crowd.count_of_region[regions].sum())
-                rows = Rows(np.empty(count, np.int32), np.empty(count * steps, np.uint8), steps, first_step)
-                simulate(block, first_step, steps, regions, *rows[:2])
+                rows = _make_rows(int(crowd.count_of_region[regions].sum()), block, first_step, steps)
+                self.lost += act(*crowd.for_kernels(regions), rows)
                 self._keep(rows)
                 if self.total_time >= limit:
                     return
@@ -110,14 +100,14 @@ class Recording:
                 f"{free / GIB:.1f} GiB are free; plan fewer robots, or keep arrivals only (record='arrivals')"
             )
 
-    def _keep(self, rows: Rows) -> None:
+    def _keep(self, rows: Any) -> None:
         from trihex.planners.kernels.rows import add_times
 
         if self.keeps_actions:
             self._rows.append(rows)
-            self._kept += rows.action_of_row.size
+            self._kept += rows.action.size
         else:
-            add_times(*rows, self.crowd.arrival, self._cost_of_action, self._time)
+            add_times(rows, self.crowd.arrival, self._cost_of_action, self._time)
 
     def _by_robot(self, values: NDArray[np.int64]) -> NDArray[np.int64]:
         """Return values of the crowd's robots by their numbers in the scenario, 0 for all others."""
@@ -132,8 +122,7 @@ class Recording:
         first_action = np.concatenate([[0], np.cumsum(self._by_robot(self.crowd.arrival))])
         actions = np.empty(first_action[-1], dtype=np.uint8)
         while self._rows:  # one after the other, so that what is written is freed
-            robot_of_row, action_of_row, steps, first_step = self._rows.pop()
-            write_rows(self.crowd.robot, robot_of_row, action_of_row, steps, first_step, first_action, actions)
+            write_rows(self._rows.pop(), self.crowd.robot, first_action, actions)
         return Plan(self.crowd.scenario, actions, first_action, planner=planner)
 
     def make_arrivals(self, planner: str) -> Arrivals:
@@ -143,3 +132,12 @@ class Recording:
         return Arrivals(
             scenario, np.where((arrival == 0) & ~starts_there, -1, arrival), self._by_robot(self._time), planner
         )
+
+
+def _make_rows(count: int, block: int, first_step: int, steps: int) -> Any:
+    """Return empty `Rows` of kernels for so many robots and a block of steps."""
+    from trihex.kernels.signatures import given
+    from trihex.planners.kernels.rows import Rows
+
+    robot, action = np.empty(count, dtype=np.int32), np.empty(count * steps, dtype=np.uint8)
+    return given(Rows, robot=robot, action=action, block=block, first_step=first_step, steps=steps)

@@ -1,272 +1,183 @@
-"""Robots that weigh a longer way against waiting: the paper's Fcost = v + V + w_t * c, with c by look-up.
+"""Robots that weigh a longer way against waiting, by the paper's Fcost, see `choice`.
 
-Regions, blocks, rows and the tables of moves are those of `greedy`, as is why indices are made unsigned (it saves a
-sixth); branches and slots are those of `slots`.
+They are simulated region by region, a block of steps in each, as in `greedy`.
 """
 
+from typing import NamedTuple
+
 import numpy as np
-from numba import njit, types
-from numba.cpython.unsafe.numbers import trailing_zeros
+from numba import types
 
 from trihex.kernels.codes import WAIT
-from trihex.kernels.signatures import IN_I32, IN_I64, IN_U16, OUT_I32, OUT_I64, OUT_U8, TABLE_I32
-from trihex.planners.kernels.greedy import ROW
-from trihex.planners.kernels.slots import LEAD, count_meetings, find_slot, line_up
+from trihex.kernels.signatures import HELPER, OUT_I32, declared, kernel
+from trihex.planners.kernels.choice import MEETINGS, NOBODY, QUEUE, RULE, Choice, Turn, stays, weigh_best, weigh_others
+from trihex.planners.kernels.robots import ROBOTS
+from trihex.planners.kernels.rows import ROWS
+from trihex.planners.kernels.slots import LEAD, SITES, SLOTS, count_meetings, line_up, measure_lines
+from trihex.planners.kernels.traffic import TRAFFIC, Now, note_entry, note_passing
+from trihex.planners.kernels.ways import WAYS, first_of, neighbour
 
-# What c counts: robots that will be in my slot, or the line that they have formed in it by the time I am there.
-MEETINGS, QUEUE = 0, 1
-# When a blocked robot steps aside: never; to a place no farther than its own, if that is worth a wait; whenever there
-# is one that it has not just left.
-STAY, WORTH, ALWAYS = 0, 1, 2
-_FAR = 1 << 60
 _U = np.uint64
 
 
-@njit(nogil=True)
-def _measure_lines(regions_branches, steps, count, line, first_slot, highest, lined_end):
-    """Find how far the lines of some branches may reach in the next `steps` steps, and clear what lies beyond."""
-    first_branch, last_branch = regions_branches
+class Asking(NamedTuple):
+    """Who has been asked, by robot; and who is to be asked."""
+
+    row: OUT_I32  # of a robot
+    asked: OUT_I32  # the step in which it was asked last
+    came_from: OUT_I32  # the site where it was before it moved last
+    captain_of_region: OUT_I32  # who is asked first, 0: not known
+    waiting: OUT_I32  # a stack of those that are asked after others who stand in their way
+
+
+ASKING = declared(Asking)
+
+
+@HELPER
+def _move(robot, site, choice, turn, ways, sites, slots, traffic, robots, asking):
+    """Let a robot take its choice; return what it loses: the cost beyond what it comes nearer."""
+    to = choice.to
+    note_passing(choice.via, traffic, turn.now)
+    asking.came_from[_U(robot)] = site
+    traffic.robot_at[_U(site)] = 0
+    slots.count[_U(sites.slot[_U(site)])] -= 1
+    if sites.slot[_U(to)] < 0:
+        robots.arrival[_U(robot)] = turn.now.step
+        robots.site[_U(robot)] = 0
+        note_entry(to, ways.entry_limit, traffic, turn.now)
+    else:
+        traffic.robot_at[_U(to)] = robot
+        robots.site[_U(robot)] = to
+        slots.count[_U(sites.slot[_U(to)])] += 1
+    return np.int64(ways.cost[_U(choice.direction)]) + sites.distance[_U(to)] - sites.distance[_U(site)]
+
+
+@HELPER
+def _ask(own, turn, rule, ways, sites, slots, traffic, robots, asking, rows):
+    """Ask a robot what it does, after those who stand in its way; return what they lose.
+
+    The captain asks nobody, and nobody listed before `own` is asked again.
+    """
+    loss = np.int64(0)
+    robot, depth = own, 0
+    while asking.asked[_U(own)] != turn.now.step:
+        site = np.int64(robots.site[_U(robot)])
+        slot = sites.slot[_U(site)]
+        descends = robot == turn.captain or (rule.counts == MEETINGS and slots.line[_U(slot)] & LEAD != 0)
+        choice, other = weigh_best(site, own, descends, turn, rule, ways, sites, slots, traffic, asking)
+        if other != NOBODY and own != turn.captain:
+            asking.waiting[_U(depth)] = robot
+            depth += 1
+            robot = other
+            continue
+        if descends and choice.direction != WAIT:
+            slots.line[_U(slot)] &= LEAD - 1
+        elif choice.fcost > sites.distance[_U(site)] and (
+            rule.counts == MEETINGS or choice.direction == WAIT or (turn.now.step + robot) % rule.period == 0
+        ):
+            choice = weigh_others(site, choice, turn, rule, ways, sites, slots, traffic)
+            if stays(robot, site, choice, rule, ways, sites, asking):
+                choice = Choice(np.int64(WAIT), site, np.int64(0), choice.fcost, choice.best)
+        asking.asked[_U(robot)] = turn.now.step
+        rows.action[_U(asking.row[_U(robot)] * rows.steps + turn.now.s)] = choice.direction
+        if choice.direction == WAIT:
+            loss += ways.waiting_cost
+        else:
+            loss += _move(robot, site, choice, turn, ways, sites, slots, traffic, robots, asking)
+        if depth > 0:
+            depth -= 1
+            robot = np.int64(asking.waiting[_U(depth)])
+    return loss
+
+
+@HELPER
+def _begin(region, first_row, rule, sites, slots, robots, asking, rows):
+    """Give each robot of a region a row, and find how far its lines may reach."""
+    first_branch, last_branch = slots.first_branch_of_region[region], slots.first_branch_of_region[region + 1]
     for branch in range(first_branch, last_branch):
-        end = first_slot[branch]
-        if highest[branch] > 0:
-            waiting = line_up(end, highest[branch] + 1, count, line)
-            end = min(first_slot[branch + 1], highest[branch] + 1 + max(waiting, steps))
-        for slot in range(end, lined_end[branch]):
-            line[slot] = 0
-        lined_end[branch] = end
+        slots.highest[branch] = 0
+    first, row = robots.first_of_region[region], first_row
+    for j in range(first, first + robots.count_of_region[region]):
+        robot = robots.listed[j]
+        asking.row[robot] = row
+        rows.robot[row] = robot
+        row += 1
+        slot = sites.slot[robots.site[robot]]
+        branch = slots.branch_of_slot[slot]
+        slots.highest[branch] = max(slots.highest[branch], slot)
+    if rule.counts == QUEUE:
+        for branch in range(first_branch, last_branch):
+            measure_lines(branch, rows.steps, slots)
 
 
-@njit(nogil=True)
-def _find_captain(captain, site_of_robot, robot_at, best, offset):
-    """Return who is at the head of the way of `captain`: the cell to which its first best direction leads is free."""
+@HELPER
+def _count(region, s, rule, slots):
+    """Count anew, where it is due, who is in each slot of a region."""
+    for branch in range(slots.first_branch_of_region[region], slots.first_branch_of_region[region + 1]):
+        if rule.counts == MEETINGS:
+            count_meetings(slots.first_slot[branch], slots.first_slot[branch + 1], slots)
+        elif s % rule.period == 0:
+            line_up(slots.first_slot[branch], slots.lined_end[branch], slots)
+
+
+@HELPER
+def _find_captain(region, ways, sites, traffic, robots, asking):
+    """Return who is at the head of the way of the captain: the cell its first best direction leads to is free."""
+    captain = np.int64(asking.captain_of_region[region])
+    if captain == 0 or robots.site[captain] == 0:
+        captain = np.int64(robots.listed[robots.first_of_region[region]])
     while True:
-        site = site_of_robot[captain]
-        ahead = robot_at[site + offset[site & 1, trailing_zeros(best[site])]]
+        site = np.int64(robots.site[captain])
+        ahead = np.int64(traffic.robot_at[neighbour(site, first_of(sites.best[site]), ways)])
         if ahead == 0:
+            asking.captain_of_region[region] = captain
             return captain
         captain = ahead
 
 
-@njit(
-    types.void(
-        *[IN_I64, TABLE_I32, IN_I32, IN_I32, IN_I32, types.int64, types.int64, types.int64],
-        *[IN_I32, IN_U16, IN_U16, OUT_I32, OUT_I64, OUT_I32, OUT_I32],
-        *[IN_I32, IN_I64, IN_I32, OUT_I32, OUT_I32, OUT_I32, OUT_I64, OUT_I64],
-        *[IN_I64, IN_I64, IN_I64, IN_I64, OUT_I64, OUT_I32, OUT_I32],
-        *[OUT_I32, OUT_I32, OUT_I32, OUT_I32],
-        *[OUT_I32, OUT_U8, OUT_I64, OUT_I64],
-    ),
-    cache=True,
-    nogil=True,
-)
-def weigh(
-    rules,
-    table,
-    offset,
-    vertex,
-    cost,
-    block,
-    first_step,
-    steps,
-    distance,
-    best_moves,
-    moves,
-    robot_at,
-    passed,
-    entered_step,
-    entered_count,
-    branch_of_end,
-    first_slot,
-    branch_of_slot,
-    slot,
-    count,
-    line,
-    highest,
-    lined_end,
-    first_branch_of_region,
-    first_end_of_region,
-    regions,
-    first_of_region,
-    count_of_region,
-    captain_of_region,
-    listed,
-    site_of_robot,
-    row_of_robot,
-    asked,
-    came_from,
-    robot_of_row,
-    action_of_row,
-    arrival,
-    lost,
-):
-    """Let the robots of `regions` act for `steps` steps after `first_step`; fill a row of actions for each.
+@HELPER
+def _turn_of(region, captain, slots, now):
+    """Return the turn of a region."""
+    first, last = slots.first_branch_of_region[region], slots.first_branch_of_region[region + 1]
+    ends = slots.first_end_of_region
+    return Turn(captain, slots.first_slot[first], slots.first_slot[last], -ends[region + 1], -1 - ends[region], now)
 
-    `rules` are: what c counts, when to step aside, every how many steps lines are counted anew and a robot whose way
-    is free looks for a better one, what a collision costs, w_t, the first vertex move that may not be crossed, the
-    capacity of a destination (0: any). Each robot takes the free direction of least Fcost, unless waiting for the best
-    direction promises less. In each region one robot, the captain, or who stands at the head of its way, is asked
-    first and descends; so a captain arrives in bounded time, and then there is another. `lost` counts what all robots
-    lose: the cost of waits, and of moves beyond what they come nearer.
+
+@HELPER
+def _step(region, now, rule, ways, sites, slots, traffic, robots, asking, rows):
+    """Let the robots of a region act in one step, the captain first; return what they lose."""
+    _count(region, now.s, rule, slots)
+    captain = _find_captain(region, ways, sites, traffic, robots, asking)
+    turn = _turn_of(region, captain, slots, now)
+    loss = np.int64(0)
+    first = kept = robots.first_of_region[region]
+    for j in range(first - 1, first + robots.count_of_region[region]):
+        own = np.int64(robots.listed[j]) if j >= first else captain
+        loss += _ask(own, turn, rule, ways, sites, slots, traffic, robots, asking, rows)
+        if j >= first:
+            robots.listed[_U(kept)] = own
+            kept += robots.site[_U(own)] > 0
+    robots.count_of_region[region] = kept - first
+    return loss
+
+
+@kernel(types.int64(RULE, WAYS, SITES, SLOTS, ASKING, TRAFFIC, ROBOTS, ROWS))
+def weigh(rule, ways, sites, slots, asking, traffic, robots, rows):
+    """Let the robots of some regions act for a block of steps; fill `rows` and return what they lose.
+
+    Each robot takes the free direction of least Fcost, unless waiting for the best direction promises less. In each
+    region one robot, the captain, or who stands at the head of its way, is asked first and descends; so a captain
+    arrives in bounded time, and then there is another. Robots lose the cost of waits, and of moves beyond what they
+    come nearer.
     """
-    counts, aside, period, price, waiting_cost, first_vertex_move, capacity = rules
-    filled = 0
-    loss = 0
-    waiting_for_other = np.empty(len(listed), np.int32)
-    for i in range(len(regions)):
-        region = regions[i]
-        first = first_of_region[region]
-        first_branch, last_branch = first_branch_of_region[region], first_branch_of_region[region + 1]
-        low, high = first_slot[first_branch], first_slot[last_branch]
-        low_end, high_end = -first_end_of_region[region + 1], -1 - first_end_of_region[region]
-        for branch in range(first_branch, last_branch):
-            highest[branch] = 0
-        for j in range(first, first + count_of_region[region]):
-            robot = listed[j]
-            row_of_robot[robot] = filled
-            robot_of_row[filled] = robot
-            filled += 1
-            own_slot = slot[site_of_robot[robot]]
-            branch = branch_of_slot[own_slot]
-            highest[branch] = max(highest[branch], own_slot)
-        if counts == QUEUE:
-            _measure_lines((first_branch, last_branch), steps, count, line, first_slot, highest, lined_end)
-        for s in range(steps):
-            if count_of_region[region] == 0:
+    first_row = np.int64(0)  # no literal, for which numba would compile all helpers anew
+    loss = np.int64(0)
+    for region in robots.regions:
+        _begin(region, first_row, rule, sites, slots, robots, asking, rows)
+        first_row += robots.count_of_region[region]
+        for s in range(rows.steps):
+            if robots.count_of_region[region] == 0:
                 break
-            step = first_step + s + 1
-            for branch in range(first_branch, last_branch):
-                if counts == MEETINGS:
-                    count_meetings(first_slot[branch], first_slot[branch + 1], count, line)
-                elif s % period == 0:
-                    line_up(first_slot[branch], lined_end[branch], count, line)
-            captain = captain_of_region[region]
-            if captain == 0 or site_of_robot[captain] == 0:
-                captain = listed[first]
-            captain = _find_captain(captain, site_of_robot, robot_at, best_moves, table)
-            captain_of_region[region] = captain
-            kept = first
-            for j in range(first - 1, first + count_of_region[region]):
-                own = listed[j] if j >= first else captain
-                robot = own
-                depth = 0
-                while asked[_U(own)] != step:
-                    site = np.int64(site_of_robot[_U(robot)])
-                    parity = (site & 1) << ROW
-                    own_distance = distance[_U(site)]
-                    own_slot = slot[_U(site)]
-                    descends = robot == captain or (counts == MEETINGS and line[_U(own_slot)] & LEAD != 0)
-                    best = _FAR  # Fcost of the best direction, and of the best that is free
-                    least = _FAR
-                    taken = WAIT
-                    to = site
-                    via = 0
-                    other = np.int32(0)
-                    untried = best_moves[_U(site)]
-                    while untried:
-                        k = np.int64(trailing_zeros(untried))
-                        untried &= untried - np.uint16(1)
-                        target = site + offset[_U(parity | k)]
-                        its_slot = slot[_U(target)]
-                        if its_slot == 0:
-                            its_slot = find_slot(
-                                target, best_moves, table, branch_of_end, first_slot, branch_of_slot, slot
-                            )
-                        fcost = np.int64(own_distance)
-                        if its_slot > 0:
-                            if its_slot < low or its_slot >= high:
-                                continue
-                            collisions = (line[_U(its_slot + 1)] & (LEAD - 1)) - (its_slot + 1 == own_slot)
-                            fcost += price * collisions
-                        elif its_slot < low_end or its_slot > high_end:
-                            continue
-                        best = min(best, fcost)
-                        other = robot_at[_U(target)]
-                        if other:
-                            if other > own and asked[_U(other)] != step:  # those listed before have been asked
-                                break
-                            other = np.int32(0)
-                            continue
-                        at = (site + vertex[_U(parity | k)]) * (k >= first_vertex_move)
-                        if passed[_U(at)] >> 32 == block and passed[_U(at)] >> s & 1:
-                            continue
-                        if capacity > 0 and entered_step[_U(target)] == step and entered_count[_U(target)] >= capacity:
-                            continue
-                        if fcost < least:
-                            least = fcost
-                            taken = k
-                            to = target
-                            via = at
-                            if descends:
-                                break
-                    if other and j >= first:
-                        waiting_for_other[_U(depth)] = robot
-                        depth += 1
-                        robot = other
-                        continue
-                    if descends and taken != WAIT:
-                        line[_U(own_slot)] &= LEAD - 1
-                    elif least > own_distance and (counts == MEETINGS or taken == WAIT or (step + robot) % period == 0):
-                        untried = moves[_U(site)] & ~best_moves[_U(site)]
-                        while untried:
-                            k = np.int64(trailing_zeros(untried))
-                            untried &= untried - np.uint16(1)
-                            target = site + offset[_U(parity | k)]
-                            fcost = np.int64(cost[_U(k)]) + distance[_U(target)]
-                            if fcost >= least:
-                                continue
-                            its_slot = slot[_U(target)]
-                            if its_slot == 0:
-                                its_slot = find_slot(
-                                    target, best_moves, table, branch_of_end, first_slot, branch_of_slot, slot
-                                )
-                            if its_slot < low or its_slot >= high:
-                                continue
-                            collisions = (line[_U(its_slot + 1)] & (LEAD - 1)) - (its_slot + 1 == own_slot)
-                            fcost += price * collisions
-                            best = min(best, fcost)
-                            if fcost >= least or robot_at[_U(target)]:
-                                continue
-                            at = (site + vertex[_U(parity | k)]) * (k >= first_vertex_move)
-                            if passed[_U(at)] >> 32 == block and passed[_U(at)] >> s & 1:
-                                continue
-                            least = fcost
-                            taken = k
-                            to = target
-                            via = at
-                        if taken != WAIT and least != best and least >= best + waiting_cost:
-                            stays = aside == STAY or distance[_U(to)] > own_distance
-                            stays |= aside == WORTH and least > best + waiting_cost
-                            stays |= aside == ALWAYS and distance[_U(to)] == own_distance and to == came_from[_U(robot)]
-                            if stays:
-                                taken = WAIT
-                                to = site
-                                via = 0
-                    asked[_U(robot)] = step
-                    action_of_row[_U(row_of_robot[_U(robot)] * steps + s)] = taken
-                    if taken == WAIT:
-                        loss += waiting_cost
-                    else:
-                        loss += cost[_U(taken)] + distance[_U(to)] - own_distance
-                        before = passed[_U(via)] if passed[_U(via)] >> 32 == block else block << 32
-                        passed[_U(via)] = before | 1 << s if via else 0
-                        came_from[_U(robot)] = site
-                        robot_at[_U(site)] = 0
-                        count[_U(own_slot)] -= 1
-                        if slot[_U(to)] < 0:
-                            arrival[_U(robot)] = step
-                            site_of_robot[_U(robot)] = 0
-                            if capacity > 0:
-                                entered_count[_U(to)] = 1 + entered_count[_U(to)] * (entered_step[_U(to)] == step)
-                                entered_step[_U(to)] = step
-                        else:
-                            robot_at[_U(to)] = robot
-                            site_of_robot[_U(robot)] = to
-                            count[_U(slot[_U(to)])] += 1
-                    if depth > 0:
-                        depth -= 1
-                        robot = waiting_for_other[_U(depth)]
-                if j >= first:
-                    listed[_U(kept)] = own
-                    kept += site_of_robot[_U(own)] > 0
-            count_of_region[region] = kept - first
-    lost[0] += loss
+            now = Now(rows.block, s, rows.first_step + s + 1)
+            loss += _step(region, now, rule, ways, sites, slots, traffic, robots, asking, rows)
+    return loss
