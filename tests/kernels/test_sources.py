@@ -6,8 +6,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-import pytest
-
 import trihex
 from trihex.kernels.sources import stamp_of
 

@@ -12,7 +12,7 @@ from trihex.kernels.sources import file_of, stamp_of
 
 
 def is_marked(module: str) -> bool:
-    """Tell whether all kernels of a module have been compiled here, from the sources as they are, and are still there."""
+    """Tell whether all kernels of a module have been compiled here, from the sources as they are, and are there."""
     for folder in _folders():
         try:
             kept = (folder / _name_of(module)).read_text().splitlines()
