@@ -55,8 +55,8 @@ class Crowd:
         """How many robots are still under way."""
         return int(self.count_of_region.sum())
 
-    def for_kernels(self, regions: NDArray[np.int64]) -> tuple[Any, Any]:
-        """Return `Traffic` and `Robots` as kernels know them, to let the robots of some regions act."""
+    def for_kernels(self) -> tuple[Any, Any]:
+        """Return `Traffic` and `Robots` as kernels know them."""
         from trihex.kernels.signatures import given
         from trihex.planners.kernels.robots import Robots
         from trihex.planners.kernels.traffic import Traffic
@@ -70,7 +70,6 @@ class Crowd:
         )
         robots = given(
             Robots,
-            regions=regions,
             first_of_region=self.first_of_region,
             count_of_region=self.count_of_region,
             listed=self.listed,

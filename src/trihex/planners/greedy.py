@@ -69,9 +69,6 @@ def run_greedy(
     words = (most >> 6) + 1
     awake = given(kernels.Awake, asked=np.empty(words, dtype=np.int64), coming=np.empty(words, dtype=np.int64))
     recording = Recording(crowd, keeps_actions)
-    recording.run(
-        lambda traffic, robots, rows: kernels.descend(ways, cells, asleep, traffic, robots, rows, ranks, awake),
-        progress,
-        limit,
-    )
+    nouns = (ways, cells, asleep, ranks, awake)
+    recording.run(lambda *shared: kernels.descend(*nouns, *shared), progress, limit)
     return recording

@@ -52,11 +52,11 @@ class Recording:
         """Whether all have arrived."""
         return self.crowd.going == 0
 
-    def run(self, act: Callable[[Any, Any, Any], int], progress: Progress | None, limit: float) -> None:
+    def run(self, act: Callable[[Any, Any, Any, Any], int], progress: Progress | None, limit: float) -> None:
         """Simulate until all have arrived, or the total time is sure to be `limit` or more.
 
-        ``act(traffic, robots, rows)`` is a kernel that lets the robots of some regions act for a block of steps, fills
-        `rows` and returns what they lose; `Traffic`, `Robots` and `Rows` are nouns of kernels.
+        ``act(regions, traffic, robots, rows)`` is a kernel that lets the robots of some regions act for a block of
+        steps, fills `rows` and returns what they lose; `Traffic`, `Robots` and `Rows` are nouns of kernels.
 
         Raises
         ------
@@ -65,13 +65,13 @@ class Recording:
             as soon as what robots have waited makes it so.
         """
         crowd, first_step, block = self.crowd, 0, 0
-        going = crowd.going
+        going, nouns = crowd.going, crowd.for_kernels()
         while not self.is_over:
             steps, block = crowd.steps_of_block(), block + 1
             self._check_memory(steps)
             for regions in crowd.parts(steps):
                 rows = _make_rows(int(crowd.count_of_region[regions].sum()), block, first_step, steps)
-                self.lost += act(*crowd.for_kernels(regions), rows)
+                self.lost += act(regions, *nouns, rows)
                 self._keep(rows)
                 if self.total_time >= limit:
                     return

@@ -9,7 +9,7 @@ import numpy as np
 from numba import types
 
 from trihex.kernels.codes import WAIT
-from trihex.kernels.signatures import HELPER, OUT_I32, declared, kernel
+from trihex.kernels.signatures import HELPER, IN_I64, OUT_I32, declared, kernel
 from trihex.planners.kernels.choice import MEETINGS, NOBODY, QUEUE, RULE, Choice, Turn, stays, weigh_best, weigh_others
 from trihex.planners.kernels.robots import ROBOTS
 from trihex.planners.kernels.rows import ROWS
@@ -161,8 +161,8 @@ def _step(region, now, rule, ways, sites, slots, traffic, robots, asking, rows):
     return loss
 
 
-@kernel(types.int64(RULE, WAYS, SITES, SLOTS, ASKING, TRAFFIC, ROBOTS, ROWS))
-def weigh(rule, ways, sites, slots, asking, traffic, robots, rows):
+@kernel(types.int64(RULE, WAYS, SITES, SLOTS, ASKING, IN_I64, TRAFFIC, ROBOTS, ROWS))
+def weigh(rule, ways, sites, slots, asking, regions, traffic, robots, rows):
     """Let the robots of some regions act for a block of steps; fill `rows` and return what they lose.
 
     Each robot takes the free direction of least Fcost, unless waiting for the best direction promises less. In each
@@ -172,7 +172,7 @@ def weigh(rule, ways, sites, slots, asking, traffic, robots, rows):
     """
     first_row = np.int64(0)  # no literal, for which numba would compile all helpers anew
     loss = np.int64(0)
-    for region in robots.regions:
+    for region in regions:
         _begin(region, first_row, rule, sites, slots, robots, asking, rows)
         first_row += robots.count_of_region[region]
         for s in range(rows.steps):

@@ -20,6 +20,7 @@ from trihex.kernels.codes import WAIT
 from trihex.kernels.signatures import (
     APART,
     HELPER,
+    IN_I64,
     OUT_I8,
     OUT_I32,
     OUT_I64,
@@ -241,8 +242,8 @@ def _step(region, first_row, ways, cells, traffic, robots, rows, ranks, awake, n
     return moved, arrived
 
 
-@kernel(types.int64(WAYS, CELLS, OUT_U8, TRAFFIC, ROBOTS, ROWS, RANKS, AWAKE))
-def descend(ways, cells, asleep, traffic, robots, rows, ranks, awake):
+@kernel(types.int64(WAYS, CELLS, OUT_U8, RANKS, AWAKE, IN_I64, TRAFFIC, ROBOTS, ROWS))
+def descend(ways, cells, asleep, ranks, awake, regions, traffic, robots, rows):
     """Let the robots of some regions descend for a block of steps; fill `rows` and return what they lose by waiting.
 
     In order of rank those who are awake are asked. Each takes the first of its best directions that is free; then
@@ -258,7 +259,7 @@ def descend(ways, cells, asleep, traffic, robots, rows, ranks, awake):
     """
     first_row = np.int64(0)  # no literal, for which numba would compile all helpers anew
     waits = np.int64(0)
-    for region in robots.regions:
+    for region in regions:
         count = going = robots.count_of_region[region]
         _begin(region, first_row, asleep, ways, cells, traffic, robots, rows, ranks, awake)
         turn = awake

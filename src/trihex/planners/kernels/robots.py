@@ -6,9 +6,8 @@ from trihex.kernels.signatures import IN_I64, OUT_I32, OUT_I64, declared
 
 
 class Robots(NamedTuple):
-    """The robots of a `Crowd`, and whose turn it is."""
+    """The robots of a `Crowd`."""
 
-    regions: IN_I64  # whose robots act, one region after the other
     first_of_region: IN_I64  # where in `listed` a region begins
     count_of_region: OUT_I64  # how many robots of a region have not arrived
     listed: OUT_I32  # these robots, region by region, in each those that started nearest first
