@@ -219,3 +219,17 @@ def test_a_heap_that_is_too_small_is_doubled_and_lanes_stay_as_they_are(tessella
     assert made.sites.size > 100
     assert np.array_equal(made.sites, again.sites)
     assert np.array_equal(made.d_scheme.directions, again.d_scheme.directions)
+
+
+@pytest.mark.parametrize("tessellation", ["triangular", "hexagonal", "square"])
+@pytest.mark.parametrize("seed", range(3))
+def test_no_lane_is_missed_where_destinations_touch(tessellation, seed):
+    """How many can enter destinations in a step ends the search; destinations that touch share their neighbours."""
+    area = th.make_random_area(tessellation, 12, 14, density=0.1, seed=seed)
+    free = {(int(x), int(y)) for y, x in np.argwhere(~area.barriers)}
+    goals = sorted({(x, y) for x in range(4, 8) for y in range(4, 7)} & free)
+    robots = sorted(free - set(goals))[::2]
+    scenario = th.Scenario(area, goals, robots)
+    lanes = ways(make_lanes(th.make_n_scheme(scenario), all_there_are=True))
+    graph = Graph(scenario)
+    assert len(lanes) == graph.most(graph.robots)
