@@ -3,27 +3,8 @@
 from numba import njit, types
 
 from trihex.kernels.codes import WAIT
-from trihex.kernels.signatures import IN_I32, IN_I64, IN_U8, IN_U16, OUT_I32, OUT_I64, OUT_U8, TABLE_I32
+from trihex.kernels.signatures import IN_I32, IN_I64, IN_U8, OUT_I64, OUT_U8, TABLE_I32
 from trihex.optimum.kernels.residual import TABLE
-
-
-@njit(types.void(IN_I32, TABLE_I32, IN_U16, OUT_I32, OUT_I32), cache=True, nogil=True)
-def fill_hops(destinations, offset, moves, hops, queue):
-    """Fill `hops`, all very large, with the least number of moves to a destination; `queue` has room for all cells."""
-    tail = len(destinations)
-    queue[:tail] = destinations
-    for i in range(tail):
-        hops[destinations[i]] = 0
-    head = 0
-    while head < tail:
-        site = queue[head]
-        head += 1
-        for k in range(offset.shape[1]):
-            target = site + offset[site & 1, k]
-            if moves[site] >> k & 1 and hops[target] > hops[site] + 1:
-                hops[target] = hops[site] + 1
-                queue[tail] = target
-                tail += 1
 
 
 @njit(types.int64(types.int64, TABLE, IN_U8), cache=True, nogil=True)
