@@ -7,7 +7,7 @@ import trihex as th
 from tests.oracles import flow as oracle_flow
 from tests.oracles.optimum import least_total_time
 from tests.strategies import random_scenario
-from trihex.optimum import Network, earliest, flow
+from trihex.optimum import Network, earliest, flow, workspace
 from trihex.planners import make_plan, optimal, planner_named
 
 
@@ -163,8 +163,8 @@ def test_a_search_that_outgrows_the_limit_is_refused_too(monkeypatch, tessellati
         needs.append(need)
         check_as_ever(network, cells, layers, need, needs[0])
 
-    check_as_ever = flow.check_memory
-    for module in (flow, earliest):
+    check_as_ever = workspace.check_memory
+    for module in (workspace, earliest):
         monkeypatch.setattr(module, "check_memory", check)
     monkeypatch.setattr(optimal, "make_flow_singly", lambda *arguments, **options: None)
     monkeypatch.setattr(earliest, "_LOG", 16)

@@ -17,7 +17,6 @@ from trihex.optimum.passages import Passages, make_passages
 from trihex.record import Record, read_only
 
 OBJECTIVES = ("time", "steps")
-TO_GOAL = 16
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,9 +47,8 @@ class Network(Record):
         Least cost to a destination, in units.
     out_arcs, in_arcs : ndarray of int32, shape (nodes, most arcs + 1, 6)
         Of each arc that leaves or enters a node: what to add to the index to get the other node (0: no more arcs), its
-        reduced cost, its place among the arcs of the other node (plus `TO_GOAL` where it leads to a destination), and
-        what it costs beyond `base` a step; the other node and how many layers on it is. In descending order of reduced
-        cost.
+        reduced cost, its place among the arcs of the other node, and what it costs beyond `base` a step; the other node
+        and how many layers on it is. In descending order of reduced cost.
     """
 
     scenario: Scenario
@@ -210,9 +208,8 @@ def _make_tables(
     row = steps + hops[head] - hops[tail]
     offset = row * size + head - tail
     place_out, place_in = _places(tail, -reduced), _places(head, -reduced)
-    mark = place_in + TO_GOAL * (head >= vertices.stop)
     return (
-        _table(size, tail, place_out, offset, reduced, mark, extra, head, row),
+        _table(size, tail, place_out, offset, reduced, place_in, extra, head, row),
         _table(size, head, place_in, -offset, reduced, place_out, extra, tail, -row),
     )
 
