@@ -131,6 +131,14 @@ def test_the_least_sum_of_steps_is_that_of_integer_programming(share):
         assert steps == least_total_time(scenario, 8 + scenario.robot_count, count_steps=True), seed
 
 
+def test_exchanges_through_a_vertex_are_parted():
+    """To go to the cell across an edge through a vertex takes as many steps, so that one of two may go there so."""
+    scenario = th.Scenario(th.Area("triangular", np.zeros((3, 3), bool)), [0], [4, 0, 5, 7, 6, 3], corners="no-squeeze")
+    plan = make_plan(scenario, "optimal", objective="steps")
+    assert th.audit_plan(plan).is_clean
+    assert plan.arrival_step_of_robot.sum() == least_total_time(scenario, 14, count_steps=True) == 9
+
+
 @pytest.mark.parametrize("seed", range(40))
 def test_bounds_below_and_planners_above(seed):
     scenario = random_scenario(60_000 + seed, sides=(4, 9))

@@ -67,10 +67,10 @@ def part_exchanges(paths, arrival):
     for robot in range(len(paths.start)):
         at = paths.start[robot]
         while at % nodes < paths.first_goal:
-            head = _next_node(at, paths)
+            head = _next_place(at, paths)
             if head % nodes < paths.cell_count and head != at + nodes:
                 other = head - nodes  # where the head is one step before
-                if paths.flow[other] != 0 and _next_node(other, paths) == at + nodes:
+                if paths.flow[other] != 0 and _next_place(other, paths) == at + nodes:
                     _wait(at, paths)
                     _wait(other, paths)
                     head = at + nodes
