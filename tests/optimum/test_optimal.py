@@ -7,7 +7,7 @@ import trihex as th
 from tests.oracles import flow as oracle_flow
 from tests.oracles.optimum import least_total_time
 from tests.strategies import random_scenario
-from trihex.optimum import Network, earliest, flow, workspace
+from trihex.optimum import Network, earliest, flow, make_network, workspace
 from trihex.planners import make_plan, optimal, planner_named
 
 
@@ -148,6 +148,16 @@ def test_bounds_below_and_planners_above(seed):
     if plan.optimal:
         for planner in ("greedy", "fcost"):
             assert plan.total_time <= make_plan(scenario, planner, n_scheme=n_scheme).total_time
+
+
+def test_a_plan_that_goes_through_a_barrier_is_refused():
+    open_area = th.Area("hexagonal", [[0, 0, 0, 0], [1, 1, 1, 1]])
+    area = th.Area("hexagonal", [[0, 0, 1, 0], [0, 0, 0, 0]])
+    plan = make_plan(th.Scenario(open_area, [(0, 0)], [(3, 0)]), "greedy")
+    network = make_network(th.make_n_scheme(th.Scenario(area, [(0, 0)], [(3, 0)])))
+    cells = network.node_of_site[area.layout.cell_to_site(np.array([3]))].astype(np.int64)
+    with pytest.raises(th.PlanError, match="plan takes a move that is not open"):
+        earliest.make_earliest_flow(network, cells, np.array([0]), plan)
 
 
 def test_what_would_not_fit_is_refused_with_the_estimate():

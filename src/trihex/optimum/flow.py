@@ -122,15 +122,19 @@ def _meet_seldom(network: Network, cells: NDArray[np.int64]) -> bool:
     """Tell whether robots are hardly held up at the destinations, in each step of which so many arrive and no more."""
     distance = network.value[cells].astype(np.int64)
     index = np.arange(cells.size)
-    doors = _doors(network)
+    entries = _most_entries(network)
     # The latest of the slots that robots before may have taken; robots are in ascending order of value.
-    arrival = np.maximum.accumulate(distance // network.base - index // doors) + index // doors
+    arrival = np.maximum.accumulate(distance // network.base - index // entries) + index // entries
     held_up = int(np.maximum(arrival * network.base - distance, 0).sum())
     return held_up < _SELDOM * int(distance.sum())
 
 
-def _doors(network: Network) -> int:
-    """Return how many robots can arrive in a step, at most."""
+def _most_entries(network: Network) -> int:
+    """Return how many robots can arrive in a step, at most.
+
+    Unlike `trihex.areas.entries_per_step` this counts a cell or vertex between two destinations for each of them: a
+    little too many, which only decides how a plan is found. With the exact count some plans become others, as good.
+    """
     return max(1, int(network.room.sum()))
 
 
@@ -138,4 +142,4 @@ def _least_layers(network: Network, cells: NDArray[np.int64]) -> int:
     """Return a lower bound on the last arrival: so many robots enter the destinations in a step and no more."""
     hops = np.sort(network.hops[cells])
     behind = np.arange(cells.size)[::-1]
-    return int((hops + behind // _doors(network)).max(initial=0)) + 1
+    return int((hops + behind // _most_entries(network)).max(initial=0)) + 1

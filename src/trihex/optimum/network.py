@@ -87,7 +87,7 @@ class Network(Record):
     def room(self) -> NDArray[np.int64]:
         """How many robots get into each destination in a step."""
         arcs = np.count_nonzero(self.in_arcs[self.first_destination :, :, 0], axis=1)
-        return read_only(np.minimum(arcs, self.scenario.destination_capacity or arcs))
+        return read_only(np.minimum(arcs, self.scenario.entry_limit or arcs))
 
     @property
     def has_equal_steps(self) -> bool:

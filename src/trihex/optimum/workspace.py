@@ -15,6 +15,8 @@ from trihex.optimum.network import Network
 _BYTES_PER_NODE = 9
 # Length of the logs of the searches at first.
 _LOG = 1 << 12
+# How many robots may arrive in a step where there is no limit; more neighbours no destination has.
+_ANY_NUMBER = 255
 # Layers beyond the last that is needed whatever the robots do.
 _SPARE_LAYERS = 8
 
@@ -90,7 +92,6 @@ def _make_layer(network: Network) -> Any:
     from trihex.kernels.signatures import given
     from trihex.optimum.kernels import residual as kernels
 
-    capacity = network.scenario.destination_capacity
     return given(
         kernels.Layer,
         out=network.out_arcs,
@@ -99,7 +100,7 @@ def _make_layer(network: Network) -> Any:
         order=network.order,
         is_vertex=network.is_vertex,
         first_goal=network.first_destination,
-        capacity=255 if capacity is None else min(capacity, 255),
+        capacity=min(network.scenario.entry_limit or _ANY_NUMBER, _ANY_NUMBER),
         base=network.base,
         grain=int(np.gcd.reduce(network.out_arcs[:, :, kernels.EXTRA], axis=None)) or kernels.MARK,
     )
