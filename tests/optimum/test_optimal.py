@@ -7,7 +7,7 @@ import trihex as th
 from tests.oracles import flow as oracle_flow
 from tests.oracles.optimum import least_total_time
 from tests.strategies import random_scenario
-from trihex.optimum import Network, earliest, flow
+from trihex.optimum import Network, earliest, flow, make_network, workspace
 from trihex.planners import make_plan, optimal, planner_named
 
 
@@ -131,6 +131,14 @@ def test_the_least_sum_of_steps_is_that_of_integer_programming(share):
         assert steps == least_total_time(scenario, 8 + scenario.robot_count, count_steps=True), seed
 
 
+def test_exchanges_through_a_vertex_are_parted():
+    """To go to the cell across an edge through a vertex takes as many steps, so that one of two may go there so."""
+    scenario = th.Scenario(th.Area("triangular", np.zeros((3, 3), bool)), [0], [4, 0, 5, 7, 6, 3], corners="no-squeeze")
+    plan = make_plan(scenario, "optimal", objective="steps")
+    assert th.audit_plan(plan).is_clean
+    assert plan.arrival_step_of_robot.sum() == least_total_time(scenario, 14, count_steps=True) == 9
+
+
 @pytest.mark.parametrize("seed", range(40))
 def test_bounds_below_and_planners_above(seed):
     scenario = random_scenario(60_000 + seed, sides=(4, 9))
@@ -140,6 +148,16 @@ def test_bounds_below_and_planners_above(seed):
     if plan.optimal:
         for planner in ("greedy", "fcost"):
             assert plan.total_time <= make_plan(scenario, planner, n_scheme=n_scheme).total_time
+
+
+def test_a_plan_that_goes_through_a_barrier_is_refused():
+    open_area = th.Area("hexagonal", [[0, 0, 0, 0], [1, 1, 1, 1]])
+    area = th.Area("hexagonal", [[0, 0, 1, 0], [0, 0, 0, 0]])
+    plan = make_plan(th.Scenario(open_area, [(0, 0)], [(3, 0)]), "greedy")
+    network = make_network(th.make_n_scheme(th.Scenario(area, [(0, 0)], [(3, 0)])))
+    cells = network.node_of_site[area.layout.cell_to_site(np.array([3]))].astype(np.int64)
+    with pytest.raises(th.PlanError, match="plan takes a move that is not open"):
+        earliest.make_earliest_flow(network, cells, np.array([0]), plan)
 
 
 def test_what_would_not_fit_is_refused_with_the_estimate():
@@ -163,8 +181,8 @@ def test_a_search_that_outgrows_the_limit_is_refused_too(monkeypatch, tessellati
         needs.append(need)
         check_as_ever(network, cells, layers, need, needs[0])
 
-    check_as_ever = flow.check_memory
-    for module in (flow, earliest):
+    check_as_ever = workspace.check_memory
+    for module in (workspace, earliest):
         monkeypatch.setattr(module, "check_memory", check)
     monkeypatch.setattr(optimal, "make_flow_singly", lambda *arguments, **options: None)
     monkeypatch.setattr(earliest, "_LOG", 16)

@@ -16,6 +16,9 @@ from .schemes import (
     make_d_scheme as make_d_scheme,
     make_n_scheme as make_n_scheme,
 )
+from .steps import (
+    steps_to_destination as steps_to_destination,
+)
 from .tiled import (
     TILE_SIDE as TILE_SIDE,
     TiledField as TiledField,

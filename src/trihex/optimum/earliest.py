@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from trihex.errors import PlanError
 from trihex.memory import limit_or_default
-from trihex.optimum.flow import Flow, check_memory
+from trihex.optimum.flow import Flow
 from trihex.optimum.network import Network
+from trihex.optimum.workspace import check_memory
 from trihex.plans import Plan
 
 # Bytes for each node of a layer: a word, and its flow in the end.
@@ -47,36 +50,79 @@ def make_earliest_flow(
     ------
     TooLargeError
         If the layers would take more than `memory_limit`.
+    PlanError
+        If the plan takes a move that the network has not.
     """
-    from trihex.optimum.kernels import earliest as kernels
+    from trihex.optimum.kernels.earliest import fill_slots
     from trihex.optimum.kernels.residual import BUDGET_SPENT, DONE, LIST_FULL
+    from trihex.optimum.kernels.slots import SERVED, TOTAL
 
     size = network.node_count
     layers = int(plan.arrival_step_of_robot[robots].max(initial=0)) + 1
     limit = limit_or_default(memory_limit)
     check_memory(network, cells, layers, layers * size * _BYTES_PER_NODE, limit)
-    words = np.zeros(layers * size, dtype=np.uint32)
+    graph = _make_graph(network)
     start = network.hops[cells].astype(np.int64) * size + cells
-    layout = network.scenario.area.layout
-    shape = network.cell_count, network.first_destination
-    assert kernels.lay_plan(
-        *(start, plan.first_action[robots], plan.actions),
-        *(network.site_of_node, network.node_of_site, layout.offset_of_direction, network.out_arcs, *shape, words),
-    ), "the network has all moves of the plan"
-    kernels.bury_starts(network.hops, network.is_vertex, words)
-    log = np.empty((_LOG, 6), dtype=np.uint32)
-    heads = np.empty(kernels.DEAD, dtype=np.int64)
-    state = np.zeros(kernels.STATE_SIZE, dtype=np.int64)
-    state[kernels.GOAL] = size
+    search = _make_search(network, _lay_plan(network, graph, plan, start, robots, layers))
     status = BUDGET_SPENT
     while status != DONE:
         if status == LIST_FULL:
-            check_memory(network, cells, layers, layers * size * _BYTES_PER_NODE + 3 * log.nbytes, limit)
-            log = np.concatenate([log, np.empty_like(log)])
-        status = kernels.fill_slots(
-            *(network.out_arcs, network.in_arcs, network.first_destination, network.room),
-            *(cells.size, words, log, heads, state, _BUDGET),
-        )
+            check_memory(network, cells, layers, layers * size * _BYTES_PER_NODE + 3 * search.log.nbytes, limit)
+            search = search._replace(log=np.concatenate([search.log, np.empty_like(search.log)]))
+        status = fill_slots(graph, search, cells.size, _BUDGET)
         if progress:
-            progress(int(state[kernels.SERVED]), cells.size)
-    return Flow(network, start, words.astype(np.uint8), int(state[kernels.TOTAL]) * network.unit)
+            progress(int(search.state[SERVED]), cells.size)
+    return Flow(network, start, search.words.astype(np.uint8), int(search.state[TOTAL]) * network.unit)
+
+
+def _make_graph(network: Network) -> Any:
+    from trihex.kernels.signatures import given
+    from trihex.optimum.kernels.slots import SlotGraph
+
+    return given(
+        SlotGraph,
+        out=network.out_arcs,
+        into=network.in_arcs,
+        cell_count=network.cell_count,
+        first_goal=network.first_destination,
+        room=network.room,
+    )
+
+
+def _lay_plan(
+    network: Network, graph: Any, plan: Plan, start: NDArray[np.int64], robots: NDArray[np.int64], layers: int
+) -> NDArray[np.uint32]:
+    """Return the words of all nodes as the plan leaves them."""
+    from trihex.kernels.signatures import given
+    from trihex.optimum.kernels import laid as kernels
+
+    words = np.zeros(layers * network.node_count, dtype=np.uint32)
+    laid = given(
+        kernels.LaidPlan,
+        start=start,
+        first_action=plan.first_action[robots],
+        action=plan.actions,
+        site_of_node=network.site_of_node,
+        node_of_site=network.node_of_site,
+        offset=network.scenario.area.layout.offset_of_direction,
+    )
+    if not kernels.lay_plan(laid, graph, words):
+        raise PlanError("plan takes a move that is not open, or goes where no destination can be reached")
+    kernels.bury_starts(network.hops, network.is_vertex, words)
+    return words
+
+
+def _make_search(network: Network, words: NDArray[np.uint32]) -> Any:
+    from trihex.kernels.signatures import given
+    from trihex.optimum.kernels import slots as kernels
+    from trihex.optimum.kernels.words import DEAD
+
+    state = np.zeros(kernels.STATE_SIZE, dtype=np.int64)
+    state[kernels.GOAL] = network.node_count
+    return given(
+        kernels.SlotSearch,
+        words=words,
+        log=np.empty((_LOG, kernels.LOG_COLUMNS), dtype=np.uint32),
+        heads=np.empty(DEAD, dtype=np.int64),
+        state=state,
+    )

@@ -5,17 +5,18 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from math import gcd
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from trihex.areas import Scenario
-from trihex.fields import NScheme
+from trihex.fields import NScheme, steps_to_destination
 from trihex.kernels.codes import NOT_REACHED
+from trihex.optimum.passages import Passages, make_passages
 from trihex.record import Record, read_only
 
 OBJECTIVES = ("time", "steps")
-TO_GOAL = 16
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,9 +47,8 @@ class Network(Record):
         Least cost to a destination, in units.
     out_arcs, in_arcs : ndarray of int32, shape (nodes, most arcs + 1, 6)
         Of each arc that leaves or enters a node: what to add to the index to get the other node (0: no more arcs), its
-        reduced cost, its place among the arcs of the other node (plus `TO_GOAL` where it leads to a destination), and
-        what it costs beyond `base` a step; the other node and how many layers on it is. In descending order of reduced
-        cost.
+        reduced cost, its place among the arcs of the other node, and what it costs beyond `base` a step; the other node
+        and how many layers on it is. In descending order of reduced cost.
     """
 
     scenario: Scenario
@@ -87,7 +87,7 @@ class Network(Record):
     def room(self) -> NDArray[np.int64]:
         """How many robots get into each destination in a step."""
         arcs = np.count_nonzero(self.in_arcs[self.first_destination :, :, 0], axis=1)
-        return read_only(np.minimum(arcs, self.scenario.destination_capacity or arcs))
+        return read_only(np.minimum(arcs, self.scenario.entry_limit or arcs))
 
     @property
     def has_equal_steps(self) -> bool:
@@ -103,117 +103,115 @@ class Network(Record):
         return read_only(node)
 
 
+class _Prices(NamedTuple):
+    """What robots pay in the end."""
+
+    distance_of_site: NDArray[np.int32]
+    of_direction: NDArray[np.int64]
+    of_waiting: int
+
+    @property
+    def unit(self) -> int:
+        """What all are multiples of."""
+        return gcd(self.of_waiting, *self.of_direction.tolist())
+
+    @property
+    def least(self) -> int:
+        """What a step costs at least."""
+        return min(self.of_waiting, int(self.of_direction.min()))
+
+
+class _Arcs(NamedTuple):
+    """Arcs of a layer: nodes at both ends, cost, and how many steps later a robot is at the head."""
+
+    tail: NDArray[np.int64]
+    head: NDArray[np.int64]
+    cost: NDArray[np.int64]
+    steps: NDArray[np.int64]
+
+
 def make_network(n_scheme: NScheme, objective: str = "time") -> Network:
     """Make the network of a scenario whose costs are those of t_r ("time") or 1 a step ("steps")."""
     scenario = n_scheme.scenario
-    tessellation, layout = scenario.area.tessellation, scenario.area.layout
-    hops_of_site = _hops(n_scheme)
-    if objective == "steps":
-        distance, waiting_cost = hops_of_site, 1
-        cost_of_direction = np.ones(tessellation.direction_count, dtype=np.int64)
-    else:
-        distance, waiting_cost = n_scheme.distance_of_site, scenario.waiting_cost
-        cost_of_direction = tessellation.cost_of_direction.astype(np.int64)
-    unit = gcd(waiting_cost, *cost_of_direction.tolist())
+    hops_of_site = steps_to_destination(scenario)
+    prices = _prices(n_scheme, hops_of_site, objective)
 
-    reached = np.flatnonzero(n_scheme.distance_of_site != NOT_REACHED)
-    cells, goals = reached[distance[reached] > 0], reached[distance[reached] == 0]
-    through_vertex = tessellation.edge_count if scenario.crossing == "forbid" else tessellation.direction_count
-    pairs = _cells_at_vertices(scenario, np.concatenate([cells, goals]), through_vertex, cost_of_direction)
-    vertices = np.unique(pairs[:, 1])
-    sites = np.concatenate([cells, vertices, goals])
-    first_goal = cells.size + vertices.size
-    node = np.full(layout.size, -1, dtype=np.int64)
-    node[cells], node[goals] = np.arange(cells.size), np.arange(first_goal, sites.size)
-    at, vertex = node[pairs[:, 0]], cells.size + np.searchsorted(vertices, pairs[:, 1])
+    sites = np.flatnonzero(n_scheme.distance_of_site != NOT_REACHED)
+    is_cell = hops_of_site[sites] > 0
+    cells, goals = sites[is_cell], sites[~is_cell]
+    passages = make_passages(scenario, sites, prices.distance_of_site, prices.of_direction)
+    site_of_node = np.concatenate([cells, passages.vertices, goals])
+    first_goal = cells.size + passages.vertices.size
+    node = np.full(scenario.area.layout.size, -1, dtype=np.int64)
+    node[cells], node[goals] = np.arange(cells.size), np.arange(first_goal, site_of_node.size)
 
-    hops, value = (np.zeros(sites.size, dtype=np.int64) for _ in range(2))
-    for array, of_site, least in ((hops, hops_of_site, 1), (value, distance, 0)):
-        array[:] = NOT_REACHED
-        array[node[reached]] = of_site[reached]
-        np.minimum.at(array, vertex, array[at] + least)
+    hops = hops_of_site[site_of_node].astype(np.int64)
+    hops[cells.size : first_goal] = NOT_REACHED
+    np.minimum.at(hops, cells.size + passages.vertex, hops_of_site[passages.site] + 1)
+    value = prices.distance_of_site[site_of_node].astype(np.int64)
+    value[cells.size : first_goal] = passages.distance
 
-    is_cell = at < first_goal
-    arcs = [
-        *_moves(scenario, cells, node, through_vertex, cost_of_direction),
-        _arcs(np.arange(cells.size), np.arange(cells.size), waiting_cost, 1),
-        _arcs(at[is_cell], vertex[is_cell], pairs[is_cell, 2], 0),
-        _arcs(vertex, at, 0, 1),
-    ]
-    tail, head, cost, steps = np.concatenate(arcs).T
-    reduced = (cost + value[head] - value[tail]) // unit
-    base = min(waiting_cost, *cost_of_direction.tolist())
-    is_vertex = np.zeros(sites.size, dtype=np.int64)
-    is_vertex[cells.size : first_goal] = 1
-    extra = (cost - base * (steps + is_vertex[head] - is_vertex[tail])) // unit
-    row = steps + hops[head] - hops[tail]
-    offset = row * sites.size + head - tail
-    place_out, place_in = _places(tail, -reduced), _places(head, -reduced)
+    arcs = _make_arcs(scenario, cells, node, passages, prices)
     return Network(
         scenario,
-        read_only(sites.astype(np.int32)),
+        read_only(site_of_node.astype(np.int32)),
         cells.size,
-        vertices.size,
-        unit,
-        base // unit,
+        passages.vertices.size,
+        prices.unit,
+        prices.least // prices.unit,
         read_only(hops.astype(np.int32)),
-        read_only((value // unit).astype(np.int32)),
-        _table(
-            sites.size, tail, place_out, offset, reduced, place_in + TO_GOAL * (head >= first_goal), extra, head, row
-        ),
-        _table(sites.size, head, place_in, -offset, reduced, place_out, extra, tail, -row),
+        read_only((value // prices.unit).astype(np.int32)),
+        *_make_tables(arcs, hops, value, slice(cells.size, first_goal), prices),
     )
 
 
-def _hops(n_scheme: NScheme) -> NDArray[np.int32]:
-    """Return the least number of steps from each site to a destination."""
-    from trihex.optimum.kernels.paths import fill_hops
+def _prices(n_scheme: NScheme, hops_of_site: NDArray[np.int32], objective: str) -> _Prices:
+    tessellation = n_scheme.scenario.area.tessellation
+    if objective == "steps":
+        return _Prices(hops_of_site, np.ones(tessellation.direction_count, dtype=np.int64), 1)
+    cost = tessellation.cost_of_direction.astype(np.int64)
+    return _Prices(n_scheme.distance_of_site, cost, n_scheme.scenario.waiting_cost)
 
-    scenario = n_scheme.scenario
+
+def _make_arcs(
+    scenario: Scenario, cells: NDArray[np.int64], node: NDArray[np.int64], passages: Passages, prices: _Prices
+) -> _Arcs:
+    """Make all arcs: moves that pass no vertex or one that others may pass too, waiting, into and out of vertices."""
     layout = scenario.area.layout
-    hops = np.full(layout.size, NOT_REACHED, dtype=np.int32)
-    queue = np.empty(scenario.area.free_count, dtype=np.int32)
-    fill_hops(layout.cell_to_site(scenario.destinations), layout.offset_of_direction, scenario.moves, hops, queue)
-    return hops
-
-
-def _cells_at_vertices(
-    scenario: Scenario, sites: NDArray[np.int64], first: int, cost: NDArray[np.int64]
-) -> NDArray[np.int64]:
-    """Return rows (site, lattice vertex, least cost) for the vertices that robots pass to or from each site.
-
-    Serves every corner rule: of two cells around a vertex that both have an open move through it, any two have one
-    between them, unless they share an edge. For "no-squeeze" that is so because such cells belong to one run of three
-    or more free cells, and no second such run has room around the vertex.
-    """
-    rows = [np.empty((0, 3), dtype=np.int64)]
-    for k in range(first, cost.size):
-        own = sites[(scenario.moves[sites] >> k & 1).astype(bool)]
-        vertex = own + scenario.area.layout.vertex_of_direction[own & 1, k]
-        rows.append(np.stack([own, vertex, np.full(own.size, cost[k])], axis=1))
-    every = np.concatenate(rows)
-    every = every[np.lexsort(every.T[::-1])]
-    is_first = np.ones(len(every), dtype=bool)
-    is_first[1:] = (np.diff(every[:, :2], axis=0) != 0).any(axis=1)
-    return every[is_first]
-
-
-def _moves(
-    scenario: Scenario, cells: NDArray[np.int64], node: NDArray[np.int64], last: int, cost: NDArray[np.int64]
-) -> list[NDArray[np.int64]]:
-    """Return the arcs of the directions below `last`."""
-    arcs = []
-    for k in range(last):
+    arcs: list[tuple[ArrayLike, ...]] = []
+    for k in range(scenario.first_vertex_move):
         own = cells[(scenario.moves[cells] >> k & 1).astype(bool)]
-        target = own + scenario.area.layout.offset_of_direction[own & 1, k]
-        arcs.append(_arcs(node[own], node[target], int(cost[k]), 1))
-    return arcs
+        target = own + layout.offset_of_direction[own & 1, k]
+        arcs.append((node[own], node[target], prices.of_direction[k], 1))
+    waiting = np.arange(cells.size)
+    at, vertex = node[passages.site], cells.size + passages.vertex
+    enters = at < cells.size  # a robot in a destination stays there
+    arcs += [
+        (waiting, waiting, prices.of_waiting, 1),
+        (at[enters], vertex[enters], passages.enter[enters], 0),
+        (vertex, at, passages.leave, 1),
+    ]
+    return _Arcs(*np.concatenate([np.stack(np.broadcast_arrays(*columns), axis=1) for columns in arcs]).T)
 
 
-def _arcs(
-    tail: NDArray[np.int64], head: NDArray[np.int64], cost: int | NDArray[np.int64], steps: int
-) -> NDArray[np.int64]:
-    return np.stack(np.broadcast_arrays(tail, head, cost, steps), axis=1)
+def _make_tables(
+    arcs: _Arcs, hops: NDArray[np.int64], value: NDArray[np.int64], vertices: slice, prices: _Prices
+) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Make the tables of arcs out of and into each node."""
+    tail, head, cost, steps = arcs
+    size = hops.size
+    # A robot in a vertex has paid for the step that it is in.
+    begun = np.zeros(size, dtype=np.int64)
+    begun[vertices] = 1
+    reduced = (cost + value[head] - value[tail]) // prices.unit
+    extra = (cost - prices.least * (steps + begun[head] - begun[tail])) // prices.unit
+    row = steps + hops[head] - hops[tail]
+    offset = row * size + head - tail
+    place_out, place_in = _places(tail, -reduced), _places(head, -reduced)
+    return (
+        _table(size, tail, place_out, offset, reduced, place_in, extra, head, row),
+        _table(size, head, place_in, -offset, reduced, place_out, extra, tail, -row),
+    )
 
 
 def _places(node: NDArray[np.int64], order: NDArray[np.int64]) -> NDArray[np.int64]:

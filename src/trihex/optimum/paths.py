@@ -13,27 +13,33 @@ from trihex.plans import Plan
 
 def make_plan_of_flow(flow: Flow, robots: NDArray[np.int64], proves: bool) -> Plan:
     """Let the robots follow the flow."""
+    from trihex.kernels.signatures import given
     from trihex.optimum.kernels import paths as kernels
 
     network = flow.network
     scenario = network.scenario
-    layout = scenario.area.layout
+    paths = given(
+        kernels.FlowPaths,
+        start=flow.start_of_robot,
+        flow=flow.flow,
+        out=network.out_arcs,
+        cell_count=network.cell_count,
+        first_goal=network.first_destination,
+    )
     arrival = np.zeros(robots.size, dtype=np.int64)
-    shape = network.cell_count, network.first_destination, network.out_arcs
-    while kernels.part_exchanges(flow.start_of_robot, *shape, flow.flow, arrival):
+    while kernels.part_exchanges(paths, arrival):
         pass
     length = np.zeros(scenario.robot_count, dtype=np.int64)
     length[robots] = arrival
     first_action = np.concatenate([[0], np.cumsum(length)])
     actions = np.empty(first_action[-1], dtype=np.uint8)
-    kernels.write_actions(
-        flow.start_of_robot,
-        *shape,
-        flow.flow,
-        network.site_of_node,
-        layout.offset_of_direction,
-        first_action[robots],
-        actions,
+    out = given(
+        kernels.ActionsOut,
+        first=first_action[robots],
+        action=actions,
+        site_of_node=network.site_of_node,
+        offset=scenario.area.layout.offset_of_direction,
     )
+    kernels.write_actions(paths, out)
     plan = Plan(scenario, actions, first_action, planner="optimal")
     return replace(plan, optimal=proves and plan.total_time == flow.total)

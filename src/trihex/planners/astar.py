@@ -49,7 +49,8 @@ def plan_astar(n_scheme: NScheme, *, memory_limit: int | None = None, progress: 
         ways = _find_ways(reservations, site[going], respects_starts, progress)
         if ways is not None:
             break
-    assert ways is not None  # see above
+    if ways is None:
+        raise RuntimeError("a robot found no way although all respected the starts of those after them")
     length = np.zeros(scenario.robot_count, dtype=np.int64)
     length[going] = [way.size for way in ways]
     way_of_robot = dict(zip(going.tolist(), ways, strict=True))

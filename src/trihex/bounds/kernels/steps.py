@@ -5,22 +5,6 @@ from numba import njit, types
 from trihex.kernels.signatures import IN_I32, IN_U16, OUT_BOOL, OUT_I32, OUT_I64, TABLE_I32
 
 
-@njit(types.int64(IN_U16, TABLE_I32, OUT_I32, OUT_I32, types.int64, types.int64, types.int64), cache=True, nogil=True)
-def count_steps(moves, offset, steps, queue, head, tail, budget):
-    """Go on with a search in breadth from ``queue[head:tail]``, at most `budget` sites; return the new tail."""
-    for at in range(head, min(tail, head + budget)):
-        site = queue[at]
-        bits = moves[site]
-        for k in range(offset.shape[1]):
-            if bits >> k & 1:
-                target = site + offset[site & 1, k]
-                if steps[target] < 0:
-                    steps[target] = steps[site] + 1
-                    queue[tail] = target
-                    tail += 1
-    return tail
-
-
 @njit(types.int64(OUT_I64, types.int64), cache=True, nogil=True)
 def queue_up(slots, width):
     """Delay sorted `slots` until each number occurs at most `width` times; return their sum."""

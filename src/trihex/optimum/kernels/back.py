@@ -6,9 +6,13 @@ in the order of turns so far plus turns to come, the latest found first. Whateve
 at least as many turns as it has come to; so those to a visited node are at least the difference, which it keeps.
 """
 
-from numba import njit
+from typing import NamedTuple
 
-from trihex.kernels.signatures import UNCOUNTED
+import numpy as np
+from numba import types
+
+from trihex.kernels.signatures import APART, HELPER
+from trihex.optimum.kernels.flow_byte import START, arc_in, arc_out, with_arc_in, with_arc_out
 from trihex.optimum.kernels.residual import (
     AT,
     BUDGET_SPENT,
@@ -36,7 +40,6 @@ from trihex.optimum.kernels.residual import (
     ROWS,
     SHORT,
     SLACK,
-    START,
     TURN_LISTS,
     TURNS,
     VIA,
@@ -47,18 +50,33 @@ BITS = 6
 MOST_TURNS = (1 << BITS) - 1
 # No robot without path ever comes to such a node.
 NEVER = (MARK >> BITS) - 1
+# More steps than any node is away.
+_NOWHERE = 4 * FAR_AWAY
 
 
-@njit(nogil=True, **UNCOUNTED)
+class Approach(NamedTuple):
+    """A node before an entry, as a visit would log it."""
+
+    at: types.int64
+    node: types.int64
+    row: types.int64
+    slack: types.int64
+    via: types.int64
+    turns: types.int64
+
+
+@HELPER
 def _stands_back(seen, slack, turns, log):
     """Tell whether a visit with so much slack and so many turns is no better than one that has been."""
     return slack < log[seen, SLACK] or (slack == log[seen, SLACK] and turns >= log[seen, TURNS])
 
 
-@njit(nogil=True, **UNCOUNTED)
-def _offer(at, node, row, slack, seen_from, via, turns, since, log, own, heads):
+@HELPER
+def _offer(node_before, seen_from, nodes, search):
     """Log a node that is worth a visit."""
-    before = since[at]
+    log, own, heads = search.log, search.state, search.heads
+    at, node, row, slack, via, turns = node_before
+    before = nodes.since[at]
     total = turns
     if before < MARK:
         least = before >> BITS
@@ -79,103 +97,122 @@ def _offer(at, node, row, slack, seen_from, via, turns, since, log, own, heads):
     own[LOGGED] += 1
 
 
-@njit(nogil=True, **UNCOUNTED)
-def _visit(entry, out, into, hops, first_goal, flow, away, since, log, own, heads):
+@HELPER
+def _carries(at, node, j, layer, nodes):
+    """Tell whether somebody comes to a node by arc j."""
+    if node < layer.first_goal:
+        return j == arc_in(nodes.flow[at])
+    return arc_out(nodes.flow[at + layer.into[node, j, OFFSET]]) == layer.into[node, j, PLACE]
+
+
+@HELPER
+def _turned_back(seen, layer, nodes):
+    """Return a node as it is where nobody passes; else the next on the way of who does, who is to be turned back."""
+    at, node = seen.at, seen.node
+    if nodes.flow[at] == 0:
+        return seen
+    i = arc_out(nodes.flow[at])
+    row, slack = seen.row + layer.out[node, i, ROWS], seen.slack + layer.out[node, i, EXTRA]
+    head, other = at + layer.out[node, i, OFFSET], np.int64(layer.out[node, i, OTHER])
+    return Approach(head, other, row, slack, seen.via, seen.turns + 1)
+
+
+@HELPER
+def _steps_away(seen, layer, ends):
+    """Return how far a node seems to be from a robot without path."""
+    far = np.int64(ends.away[seen.node])
+    if far > seen.row - layer.hops[seen.node]:  # too far for the steps that are left
+        far += FAR_AWAY
+    return far
+
+
+@HELPER
+def _visit(entry, layer, nodes, search, ends):
     """Offer the nodes before one, the nearest to a robot without path at last."""
+    log, into = search.log, layer.into
     at, node, row, slack = log[entry, AT], log[entry, NODE], log[entry, ROW], log[entry, SLACK]
-    is_goal = node >= first_goal
-    nearest = 4 * FAR_AWAY
-    best_at = best_node = best_row = best_slack = best_place = best_turns = 0
+    turns = log[entry, TURNS]
+    nearest = np.int64(_NOWHERE)
+    best = Approach(at, node, row, slack, np.int64(OWN), turns)
     for j in range(into.shape[1]):
+        seen = Approach(at, node, row, slack, np.int64(OWN), turns)
         offset = into[node, j, OFFSET]
-        place, turns = j, log[entry, TURNS]
-        other, tail, other_row, left = at, node, row, slack
         if offset == 0:  # after the last arc: back along the flow that leaves
-            if is_goal or flow[at] == 0:
+            if node >= layer.first_goal or nodes.flow[at] == 0:
                 break
-            place = OWN
+        elif _carries(at, node, j, layer, nodes):
+            continue
         else:
-            other, tail = at + offset, into[node, j, OTHER]
-            other_row, left = row + into[node, j, ROWS], slack - into[node, j, EXTRA]
-            if ((flow[other] & 15) - 1 == into[node, j, PLACE]) if is_goal else (j == (flow[at] >> 4) - 1):
-                continue
-        if flow[other] != 0:
-            i = (flow[other] & 15) - 1
-            other += out[tail, i, OFFSET]
-            other_row += out[tail, i, ROWS]
-            left += out[tail, i, EXTRA]
-            tail = out[tail, i, OTHER]
-            turns += 1
-        far = away[tail]
-        if far > other_row - hops[tail]:  # too far for the steps that are left
-            far += FAR_AWAY
-        if far > nearest:
-            _offer(other, tail, other_row, left, entry, place, turns, since, log, own, heads)
-        else:
-            if nearest < 4 * FAR_AWAY:
-                _offer(best_at, best_node, best_row, best_slack, entry, best_place, best_turns, since, log, own, heads)
-            nearest, best_place, best_turns = far, place, turns
-            best_at, best_node, best_row, best_slack = other, tail, other_row, left
-        if place == OWN:
+            before = np.int64(into[node, j, OTHER])
+            seen = Approach(at + offset, before, row + into[node, j, ROWS], slack - into[node, j, EXTRA], j, turns)
+        seen = _turned_back(seen, layer, nodes)
+        far = _steps_away(seen, layer, ends)
+        if far <= nearest:
+            seen, far, best, nearest = best, nearest, seen, far
+        if far < _NOWHERE:
+            _offer(seen, entry, nodes, search)
+        if offset == 0:
             break
-    if nearest < 4 * FAR_AWAY:
-        _offer(best_at, best_node, best_row, best_slack, entry, best_place, best_turns, since, log, own, heads)
+    if nearest < _NOWHERE:
+        _offer(best, entry, nodes, search)
 
 
-@njit(nogil=True, **UNCOUNTED)
+@HELPER
 def _offer_goals(layer, nodes, search, ends, state):
     """Begin at all destinations that are open."""
     size = len(layer.hops)
     own, heads = search.state, search.heads
     own[ROOT], own[CURRENT], own[SHORT] = 1, TURN_LISTS, MARK
-    heads[:TURN_LISTS] = NONE
+    for turns in range(TURN_LISTS):
+        heads[turns] = NONE
+    none = np.int64(0)
     for k in range(state[OPEN_GOALS]):
         at = ends.goals[k]
         row = at // size
         slack = state[LEVEL] - layer.base * row
         if nodes.flow[at] < layer.capacity and slack % layer.grain == 0:
-            _offer(at, at % size, row, slack, NONE, 0, 0, nodes.since, search.log, own, heads)
+            _offer(Approach(at, at % size, row, slack, none, none), NONE, nodes, search)
 
 
-@njit(nogil=True, **UNCOUNTED)
-def _look(out, into, hops, first_goal, flow, since, away, lacks, log, own, heads, budget):
+@HELPER
+def _go_back(layer, nodes, search, ends, budget):
+    """Visit nodes until one is where a robot without path starts."""
+    own, log, heads = search.state, search.log, search.heads
     for _ in range(budget):
         while own[CURRENT] < TURN_LISTS and heads[own[CURRENT]] == NONE:
             own[CURRENT] += 1
         if own[CURRENT] == TURN_LISTS:
             return EXHAUSTED
-        if own[LOGGED] + into.shape[1] > len(log):
+        if own[LOGGED] + layer.into.shape[1] > len(log):
             return LIST_FULL
         entry = heads[own[CURRENT]]
         heads[own[CURRENT]] = log[entry, NEXT]
         at, node = log[entry, AT], log[entry, NODE]
-        seen = since[at] - MARK
+        seen = nodes.since[at] - MARK
         if seen >= 0 and _stands_back(seen, log[entry, SLACK], log[entry, TURNS], log):
             continue
-        if lacks[node] and log[entry, ROW] == hops[node]:
+        if ends.lacks[node] and log[entry, ROW] == layer.hops[node]:
             own[LAST] = entry
             return FOUND
-        since[at] = MARK + entry
-        _visit(entry, out, into, hops, first_goal, flow, away, since, log, own, heads)
+        nodes.since[at] = MARK + entry
+        _visit(entry, layer, nodes, search, ends)
     return BUDGET_SPENT
 
 
-@njit(nogil=True, **UNCOUNTED)
+@HELPER
 def look_back(layer, nodes, search, ends, state, budget):
     """Search for a robot without path; it is then the entry `LAST`."""
-    own, log, heads = search.state, search.log, search.heads
-    if own[ROOT] == 0:
-        if state[OPEN_GOALS] >= len(log):
+    if search.state[ROOT] == 0:
+        if state[OPEN_GOALS] >= len(search.log):
             return LIST_FULL
         _offer_goals(layer, nodes, search, ends, state)
-    arcs = layer.out, layer.into, layer.hops, layer.first_goal
-    return _look(*arcs, nodes.flow, nodes.since, ends.away, ends.lacks, log, own, heads, budget)
+    return _go_back(layer, nodes, search, ends, budget)
 
 
-@njit(nogil=True, **UNCOUNTED)
-def forget_back(since, search, more):
+@APART
+def forget_back(nodes, search, more):
     """End the search; if no path of this level is left, what was visited costs `more` than was allowed for it."""
-    log, own = search.log, search.state
+    log, own, since = search.log, search.state, nodes.since
     for entry in range(own[LOGGED]):
         at = log[entry, AT]
         if since[at] == MARK + entry:
@@ -187,21 +224,22 @@ def forget_back(since, search, more):
     own[LOGGED] = own[ROOT] = 0
 
 
-@njit(nogil=True, **UNCOUNTED)
+@HELPER
 def turn_back(layer, nodes, log, entry):
     """Let a robot go from an entry to the root; return the node where it starts."""
+    flow, into = nodes.flow, layer.into
     start = log[entry, NODE]
-    nodes.flow[log[entry, AT]] = START << 4
+    flow[log[entry, AT]] = START << 4
     while log[entry, FROM] >= 0:
         via = log[entry, VIA]
         entry = log[entry, FROM]
         to, node = log[entry, AT], log[entry, NODE]
         if via == OWN:  # nobody passes there any more
-            nodes.flow[to] = 0
+            flow[to] = 0
             continue
-        tail = to + layer.into[node, via, OFFSET]
-        nodes.flow[tail] = (nodes.flow[tail] & 0xF0) | (layer.into[node, via, PLACE] + 1)
+        tail = to + into[node, via, OFFSET]
+        flow[tail] = with_arc_out(flow[tail], into[node, via, PLACE])
         if node < layer.first_goal:
-            nodes.flow[to] = (nodes.flow[to] & 15) | ((via + 1) << 4)
-    nodes.flow[log[entry, AT]] += 1
+            flow[to] = with_arc_in(flow[to], via)
+    flow[log[entry, AT]] += 1
     return start

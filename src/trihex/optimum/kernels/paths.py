@@ -1,63 +1,78 @@
 """Paths of robots in a flow through layers of steps."""
 
-from numba import njit, types
+from typing import NamedTuple
+
+from numba import types
 
 from trihex.kernels.codes import WAIT
-from trihex.kernels.signatures import IN_I32, IN_I64, IN_U8, IN_U16, OUT_I32, OUT_I64, OUT_U8, TABLE_I32
-from trihex.optimum.kernels.residual import TABLE
+from trihex.kernels.signatures import HELPER, IN_I32, IN_I64, OUT_I64, OUT_U8, TABLE_I32, declared, kernel
+from trihex.optimum.kernels.flow_byte import arc_out, with_arc_out
+from trihex.optimum.kernels.residual import OFFSET, TABLE
 
 
-@njit(types.void(IN_I32, TABLE_I32, IN_U16, OUT_I32, OUT_I32), cache=True, nogil=True)
-def fill_hops(destinations, offset, moves, hops, queue):
-    """Fill `hops`, all very large, with the least number of moves to a destination; `queue` has room for all cells."""
-    tail = len(destinations)
-    queue[:tail] = destinations
-    for i in range(tail):
-        hops[destinations[i]] = 0
-    head = 0
-    while head < tail:
-        site = queue[head]
-        head += 1
-        for k in range(offset.shape[1]):
-            target = site + offset[site & 1, k]
-            if moves[site] >> k & 1 and hops[target] > hops[site] + 1:
-                hops[target] = hops[site] + 1
-                queue[tail] = target
-                tail += 1
+class FlowPaths(NamedTuple):
+    """A flow, and where robots enter it."""
+
+    start: IN_I64  # index of the node of each robot in step 0
+    flow: OUT_U8  # of all nodes of all layers, see `flow_byte`
+    out: TABLE  # arcs that leave each node of a layer
+    cell_count: types.int64  # nodes that are cells
+    first_goal: types.int64  # nodes that are no destinations
 
 
-@njit(types.int64(types.int64, TABLE, IN_U8), cache=True, nogil=True)
-def _next(at, out_arcs, flow):
-    return at + out_arcs[at % len(out_arcs), (flow[at] & 15) - 1, 0]
+class ActionsOut(NamedTuple):
+    """Where the actions of robots go."""
+
+    first: IN_I64  # action 0 of robot r is action[first[r]]
+    action: OUT_U8
+    site_of_node: IN_I32
+    offset: TABLE_I32  # what a direction adds to a site, by parity of the site
 
 
-@njit(types.void(types.int64, TABLE, OUT_U8), cache=True, nogil=True)
-def _wait(at, out_arcs, flow):
+PATHS, ACTIONS_OUT = declared(FlowPaths), declared(ActionsOut)
+
+
+@HELPER
+def _next_node(at, paths):
+    return at + paths.out[at % len(paths.out), arc_out(paths.flow[at]), OFFSET]
+
+
+@HELPER
+def _next_place(at, paths):
+    """Return the cell or destination that the robot in a cell goes to, past a lattice vertex or not."""
+    head = _next_node(at, paths)
+    if paths.cell_count <= head % len(paths.out) < paths.first_goal:
+        head = _next_node(head, paths)
+    return head
+
+
+@HELPER
+def _wait(at, paths):
     """Let the robot at a cell stay there."""
-    nodes = len(out_arcs)
+    nodes = len(paths.out)
     i = 0
-    while out_arcs[at % nodes, i, 0] != nodes:
+    while paths.out[at % nodes, i, OFFSET] != nodes:
         i += 1
-    flow[at] = (flow[at] & 0xF0) | (i + 1)
+    paths.flow[at] = with_arc_out(paths.flow[at], i)
 
 
-@njit(types.int64(IN_I64, types.int64, types.int64, TABLE, OUT_U8, OUT_I64), cache=True, nogil=True)
-def part_exchanges(start_of_robot, cell_count, first_goal, out_arcs, flow, arrival):
+@kernel(types.int64(PATHS, OUT_I64))
+def part_exchanges(paths, arrival):
     """Let robots that would exchange cells wait and exchange their further paths instead; return how many did.
 
     To be repeated until none do. Only then the `arrival` steps are right.
     """
-    nodes = len(out_arcs)
+    nodes = len(paths.out)
     parted = 0
-    for robot in range(len(start_of_robot)):
-        at = start_of_robot[robot]
-        while at % nodes < first_goal:
-            head = _next(at, out_arcs, flow)
-            if at % nodes < cell_count and head % nodes < cell_count and head != at + nodes:
+    for robot in range(len(paths.start)):
+        at = paths.start[robot]
+        while at % nodes < paths.first_goal:
+            head = _next_place(at, paths)
+            if head % nodes < paths.cell_count and head != at + nodes:
                 other = head - nodes  # where the head is one step before
-                if flow[other] != 0 and _next(other, out_arcs, flow) == at + nodes:
-                    _wait(at, out_arcs, flow)
-                    _wait(other, out_arcs, flow)
+                if paths.flow[other] != 0 and _next_place(other, paths) == at + nodes:
+                    _wait(at, paths)
+                    _wait(other, paths)
                     head = at + nodes
                     parted += 2
             at = head
@@ -65,28 +80,20 @@ def part_exchanges(start_of_robot, cell_count, first_goal, out_arcs, flow, arriv
     return parted
 
 
-@njit(
-    types.void(IN_I64, types.int64, types.int64, TABLE, IN_U8, IN_I32, TABLE_I32, IN_I64, OUT_U8),
-    cache=True,
-    nogil=True,
-)
-def write_actions(start_of_robot, cell_count, first_goal, out_arcs, flow, site_of_node, offset, first_action, actions):
-    """Write what each robot does in each step; its first action goes to ``actions[first_action[robot]]``."""
-    nodes = len(out_arcs)
-    for robot in range(len(start_of_robot)):
-        at = start_of_robot[robot]
-        i = first_action[robot]
-        while at % nodes < first_goal:
-            head = _next(at, out_arcs, flow)
-            if cell_count <= head % nodes < first_goal:  # a lattice vertex
-                head = _next(head, out_arcs, flow)
-            site = site_of_node[at % nodes]
-            target = site_of_node[head % nodes]
+@kernel(types.void(PATHS, ACTIONS_OUT))
+def write_actions(paths, out):
+    """Write what each robot does in each step."""
+    nodes = len(paths.out)
+    for robot in range(len(paths.start)):
+        at, i = paths.start[robot], out.first[robot]
+        while at % nodes < paths.first_goal:
+            head = _next_place(at, paths)
+            site, target = out.site_of_node[at % nodes], out.site_of_node[head % nodes]
             action = WAIT
             if target != site:
                 action = 0  # edge moves come first, and of two moves to one place they are the cheaper
-                while site + offset[site & 1, action] != target:
+                while site + out.offset[site & 1, action] != target:
                     action += 1
-            actions[i] = action
+            out.action[i] = action
             i += 1
             at = head

@@ -6,10 +6,15 @@ the network, shifted by `BITS`, plus the least number of flows turned back (*tur
 ever falls, so what a search learns serves all later ones: a path through a visited node is no less than the path found.
 """
 
-from numba import njit, types
+from typing import NamedTuple
 
-from trihex.kernels.signatures import OUT_I64, UNCOUNTED
+import numpy as np
+from numba import types
+
+from trihex.kernels.signatures import APART, HELPER, OUT_I64, kernel
+from trihex.optimum.kernels.ahead import turn_ahead
 from trihex.optimum.kernels.back import BITS, MOST_TURNS
+from trihex.optimum.kernels.flow_byte import arc_in, arc_out, is_start
 from trihex.optimum.kernels.residual import (
     AT,
     BUDGET_SPENT,
@@ -41,16 +46,14 @@ from trihex.optimum.kernels.residual import (
     SLACK,
     SPARE_ROWS,
     SPENT,
-    START,
     TOTAL,
     TURN_LISTS,
     TURNS,
     VIA,
     VISITS,
-    turn_ahead,
 )
 
-# Columns of the log: as in flow_search, but here the cost beyond the value so far.
+# In place of the slack the log has the cost beyond the value so far.
 COST = SLACK
 # The last list is for all that cost more.
 FURTHER = LISTS - 1
@@ -58,16 +61,33 @@ FURTHER = LISTS - 1
 BASE = ROOT
 
 
-@njit(nogil=True, **UNCOUNTED)
+class Reach(NamedTuple):
+    """A node that can be reached, at what cost beyond the value, and with how many flows turned back."""
+
+    at: types.int64
+    node: types.int64
+    cost: types.int64
+    turns: types.int64
+
+
+@HELPER
 def _stands_back(seen, cost, turns, log):
     """Tell whether a visit at such a cost and with so many turns is no better than one that has been."""
     return cost > log[seen, COST] or (cost == log[seen, COST] and turns >= log[seen, TURNS])
 
 
-@njit(nogil=True, **UNCOUNTED)
-def _put(entry, ahead, log, own, heads, cost_now):
+@HELPER
+def _is_past(entry, nodes, log):
+    """Tell whether the node of an entry has had a visit that was as good."""
+    seen = nodes.ahead[log[entry, AT]] - MARK
+    return seen >= 0 and _stands_back(seen, log[entry, COST], log[entry, TURNS], log)
+
+
+@HELPER
+def _put(entry, nodes, search, cost_now):
     """Put an entry on the list of its least total of turns, or, if it costs more, on that of its cost."""
-    bound = ahead[log[entry, AT]]
+    log, own, heads = search.log, search.state, search.heads
+    bound = nodes.ahead[log[entry, AT]]
     if bound >= MARK:
         bound = 0
     least = log[entry, COST] + (bound >> BITS)
@@ -80,60 +100,74 @@ def _put(entry, ahead, log, own, heads, cost_now):
     heads[which] = entry
 
 
-@njit(nogil=True, **UNCOUNTED)
-def _offer(at, node, cost, turns, seen_from, via, ahead, log, own, heads, cost_now):
+@HELPER
+def _offer(reached, seen_from, via, nodes, search, cost_now):
     """Log a node that is worth a visit."""
-    if ahead[at] >= MARK and _stands_back(ahead[at] - MARK, cost, turns, log):
+    log, own = search.log, search.state
+    at, node, cost, turns = reached
+    if nodes.ahead[at] >= MARK and _stands_back(nodes.ahead[at] - MARK, cost, turns, log):
         return
     entry = own[LOGGED]
     log[entry, AT], log[entry, NODE], log[entry, COST], log[entry, TURNS] = at, node, cost, turns
     log[entry, FROM], log[entry, VIA] = seen_from, via
     own[LOGGED] += 1
-    _put(entry, ahead, log, own, heads, cost_now)
+    _put(entry, nodes, search, cost_now)
 
 
-@njit(nogil=True, **UNCOUNTED)
-def _visit(entry, out, into, first_goal, flow, ahead, log, own, heads, cost_now):
+@HELPER
+def _turn_back(at, node, j, cost, turns, into):
+    """Return the node from which flow comes along arc j into a node."""
+    before = np.int64(into[node, j, OTHER])
+    return Reach(at + into[node, j, OFFSET], before, cost - into[node, j, REDUCED], turns + 1)
+
+
+@HELPER
+def _visit_goal(entry, layer, nodes, search, cost_now):
+    """Offer the nodes before a destination that is full: somebody else is to arrive elsewhere."""
+    log, into = search.log, layer.into
+    at, node = log[entry, AT], log[entry, NODE]
+    for j in range(into.shape[1]):
+        other = at + into[node, j, OFFSET]
+        if other == at:
+            break
+        if arc_out(nodes.flow[other]) == into[node, j, PLACE]:
+            reached = _turn_back(at, node, j, log[entry, COST], log[entry, TURNS], into)
+            _offer(reached, entry, j, nodes, search, cost_now)
+
+
+@HELPER
+def _visit(entry, layer, nodes, search, cost_now):
     """Offer the nodes after one, those nearest to a destination at last."""
+    log, out = search.log, layer.out
     at, node, cost, turns = log[entry, AT], log[entry, NODE], log[entry, COST], log[entry, TURNS]
-    if node >= first_goal:  # full: somebody else is to arrive elsewhere
-        for j in range(into.shape[1]):
-            other = at + into[node, j, OFFSET]
-            if other == at:
-                break
-            if (flow[other] & 15) - 1 == into[node, j, PLACE]:
-                less = cost - into[node, j, REDUCED]
-                _offer(other, into[node, j, OTHER], less, turns + 1, entry, j, ahead, log, own, heads, cost_now)
-        return
-    passes = flow[at]
-    mine = (passes & 15) - 1
-    i = OWN if passes != 0 and passes >> 4 != START else 0  # first back along the flow that comes in
+    passes = nodes.flow[at]
+    taken = arc_out(passes)
+    i = np.int64(OWN if passes != 0 and not is_start(passes) else 0)  # first back along the flow that comes in
     while True:
-        via, more_turns = i, turns
+        via = i
+        reached = Reach(at, node, cost, turns)
         if i == OWN:
-            head, other, more = at, node, cost
-            i = 0
+            i = np.int64(0)
         else:
             offset = out[node, i, OFFSET]
             if offset == 0:
                 break
             i += 1
-            if via == mine:
+            if via == taken:
                 continue
-            head, other, more = at + offset, out[node, via, OTHER], cost + out[node, via, REDUCED]
-            passes = flow[head]
-            if passes >> 4 == START:
+            reached = Reach(at + offset, np.int64(out[node, via, OTHER]), cost + out[node, via, REDUCED], turns)
+            passes = nodes.flow[reached.at]
+            if is_start(passes):
                 continue
-        if passes != 0 and other < first_goal:  # turn back who comes there
-            j = (passes >> 4) - 1
-            head, more, other = head + into[other, j, OFFSET], more - into[other, j, REDUCED], into[other, j, OTHER]
-            more_turns += 1
-        _offer(head, other, more, more_turns, entry, via, ahead, log, own, heads, cost_now)
+        if passes != 0 and reached.node < layer.first_goal:  # turn back who comes there
+            reached = _turn_back(reached.at, reached.node, arc_in(passes), reached.cost, turns, layer.into)
+        _offer(reached, entry, via, nodes, search, cost_now)
 
 
-@njit(nogil=True, **UNCOUNTED)
-def _forget(ahead, log, own, cost_now):
+@HELPER
+def _forget(nodes, search, cost_now):
     """End the search: no path from the root costs less, nor as much with fewer turns."""
+    log, own, ahead = search.log, search.state, nodes.ahead
     for entry in range(own[LOGGED]):
         at = log[entry, AT]
         if ahead[at] == MARK + entry:
@@ -142,9 +176,21 @@ def _forget(ahead, log, own, cost_now):
     own[LOGGED] = 0
 
 
-@njit(nogil=True, **UNCOUNTED)
-def _raise_cost(ahead, log, own, heads, cost_now):
+@HELPER
+def _least_cost(entry, nodes, log):
+    """Return the least cost of a path through any entry of a list."""
+    least = np.int64(MARK)
+    while entry != NONE:
+        bound = nodes.ahead[log[entry, AT]]
+        least = min(least, log[entry, COST] + ((bound >> BITS) if bound < MARK else 0))
+        entry = log[entry, NEXT]
+    return least
+
+
+@APART
+def _raise_cost(nodes, search, cost_now):
     """Go on with the nodes of the next higher cost, and return that."""
+    log, own, heads = search.log, search.state, search.heads
     which = TURN_LISTS + cost_now + 1 - own[BASE]
     while which < FURTHER and heads[which] == NONE:
         which += 1
@@ -154,86 +200,78 @@ def _raise_cost(ahead, log, own, heads, cost_now):
     if which < FURTHER:
         cost_now = own[BASE] + which - TURN_LISTS
     else:  # to the last list came all that cost more: its least is the new base
-        cost_now, other = MARK, entry
-        while other != NONE:
-            bound = ahead[log[other, AT]]
-            cost_now = min(cost_now, log[other, COST] + ((bound >> BITS) if bound < MARK else 0))
-            other = log[other, NEXT]
-        own[BASE] = cost_now
+        own[BASE] = cost_now = _least_cost(entry, nodes, log)
     while entry != NONE:
         following = log[entry, NEXT]
-        seen = ahead[log[entry, AT]] - MARK
-        if seen < 0 or not _stands_back(seen, log[entry, COST], log[entry, TURNS], log):
-            _put(entry, ahead, log, own, heads, cost_now)
+        if not _is_past(entry, nodes, log):
+            _put(entry, nodes, search, cost_now)
         entry = following
     return cost_now
 
 
-@njit(nogil=True, **UNCOUNTED)
-def _serve(start, value, out, into, first_goal, capacity, flow, ahead, log, own, heads, state, budget):
-    size = len(out)
-    for _ in range(budget):
-        if state[SERVED] == len(start):
-            return DONE
-        robot = len(start) - 1 - state[SERVED]
-        if own[LOGGED] + into.shape[1] > len(log):
-            return LIST_FULL
-        if state[LEVEL] == NONE:
-            at = start[robot]
-            heads[:] = NONE
-            own[BASE] = state[LEVEL] = ahead[at] >> BITS
-            own[CURRENT] = TURN_LISTS
-            state[SPENT] = 0
-            _offer(at, at % size, 0, 0, NONE, 0, ahead, log, own, heads, state[LEVEL])
-            continue
-        while own[CURRENT] < TURN_LISTS and heads[own[CURRENT]] == NONE:
-            own[CURRENT] += 1
-        if own[CURRENT] == TURN_LISTS:
-            state[LEVEL] = _raise_cost(ahead, log, own, heads, state[LEVEL])
-            if state[LEVEL] > MOST_LEVEL:
-                return LEVELS_FULL
-            continue
-        entry = heads[own[CURRENT]]
-        if log[entry, AT] + SPARE_ROWS * size > len(flow):
-            return LAYERS_FULL
-        heads[own[CURRENT]] = log[entry, NEXT]
-        seen = ahead[log[entry, AT]] - MARK
-        if seen >= 0 and _stands_back(seen, log[entry, COST], log[entry, TURNS], log):
-            continue
-        if log[entry, NODE] >= first_goal and flow[log[entry, AT]] < capacity:
-            turn_ahead(out, into, first_goal, flow, log, entry)
-            _forget(ahead, log, own, state[LEVEL])
-            state[TOTAL] += value[robot] + state[LEVEL]
-            state[LEVEL] = NONE
-            state[SERVED] += 1
-            continue
-        state[SPENT] += 1
-        state[VISITS] += 1
-        ahead[log[entry, AT]] = MARK + entry
-        _visit(entry, out, into, first_goal, flow, ahead, log, own, heads, state[LEVEL])
-    return BUDGET_SPENT
+@HELPER
+def _begin(robot, nodes, search, ends, state):
+    """Begin the search for a robot at its start."""
+    own = search.state
+    at = ends.start[robot]
+    for which in range(LISTS):
+        search.heads[which] = NONE
+    own[BASE] = state[LEVEL] = nodes.ahead[at] >> BITS
+    own[CURRENT] = TURN_LISTS
+    state[SPENT] = 0
+    none = np.int64(0)
+    _offer(Reach(at, at % len(ends.lacks), none, none), NONE, 0, nodes, search, state[LEVEL])
 
 
-@njit(types.int64(LAYER, NODES, SEARCH, ENDS, OUT_I64, types.int64), cache=True, nogil=True, **UNCOUNTED)
+@HELPER
+def _serve(robot, entry, layer, nodes, search, ends, state):
+    """Let a robot go to an open destination, the node of an entry."""
+    turn_ahead(layer, nodes.flow, search.log, entry)
+    _forget(nodes, search, state[LEVEL])
+    state[TOTAL] += ends.value[robot] + state[LEVEL]
+    state[LEVEL] = NONE
+    state[SERVED] += 1
+
+
+@kernel(types.int64(LAYER, NODES, SEARCH, ENDS, OUT_I64, types.int64))
 def serve_singly(layer, nodes, search, ends, state, budget):
     """Serve robots, the farthest first, until all have a path, room is needed or some `budget` nodes were visited.
 
     The cost beyond its value of the robot under way is ``state[LEVEL]``, or NONE between two robots; nodes visited for
     it and for all so far are ``state[SPENT]`` and ``state[VISITS]``.
     """
-    # Arrays in place of tuples of them: each access to a tuple counts references, which takes half of the time.
-    return _serve(
-        ends.start,
-        ends.value,
-        layer.out,
-        layer.into,
-        layer.first_goal,
-        layer.capacity,
-        nodes.flow,
-        nodes.ahead,
-        search.log,
-        search.state,
-        search.heads,
-        state,
-        budget,
-    )
+    own, log, heads = search.state, search.log, search.heads
+    for _ in range(budget):
+        if state[SERVED] == len(ends.start):
+            return DONE
+        robot = len(ends.start) - 1 - state[SERVED]
+        if own[LOGGED] + layer.into.shape[1] > len(log):
+            return LIST_FULL
+        if state[LEVEL] == NONE:
+            _begin(robot, nodes, search, ends, state)
+            continue
+        while own[CURRENT] < TURN_LISTS and heads[own[CURRENT]] == NONE:
+            own[CURRENT] += 1
+        if own[CURRENT] == TURN_LISTS:
+            state[LEVEL] = _raise_cost(nodes, search, state[LEVEL])
+            if state[LEVEL] > MOST_LEVEL:
+                return LEVELS_FULL
+            continue
+        entry = heads[own[CURRENT]]
+        at, node = log[entry, AT], log[entry, NODE]
+        if at + SPARE_ROWS * len(layer.hops) > len(nodes.flow):
+            return LAYERS_FULL
+        heads[own[CURRENT]] = log[entry, NEXT]
+        if _is_past(entry, nodes, log):
+            continue
+        if node >= layer.first_goal and nodes.flow[at] < layer.capacity:
+            _serve(robot, entry, layer, nodes, search, ends, state)
+            continue
+        state[SPENT] += 1
+        state[VISITS] += 1
+        nodes.ahead[at] = MARK + entry
+        if node >= layer.first_goal:
+            _visit_goal(entry, layer, nodes, search, state[LEVEL])
+        else:
+            _visit(entry, layer, nodes, search, state[LEVEL])
+    return BUDGET_SPENT
