@@ -80,14 +80,13 @@ def _make_search(network: GateNetwork, width: int) -> GateSearch:
 
     gates = network.steps_out.size
     halves = 2 * gates * width
-    half, parent, changed, stack = np.empty((4, halves + 1), dtype=np.int32)
+    half, parent, changed, stack = np.empty((4, halves), dtype=np.int32)
     reach, dead_reach = np.full((2, gates), -1, dtype=np.int32)
     next_robot, dead_robot = (network.first_robot[:-1].copy() for _ in range(2))
     return GateSearch(
         seen=np.zeros(halves, dtype=np.int32),
         half=half,
         parent=parent,
-        way=np.empty(halves, dtype=np.uint8),
         changed=changed,
         stack=stack,
         reach=reach,

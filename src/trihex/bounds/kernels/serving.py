@@ -20,15 +20,12 @@ from trihex.kernels.signatures import (
     OUT_BOOL,
     OUT_I32,
     OUT_I64,
-    OUT_U8,
     declared,
     kernel,
 )
 
 SINK = -2
 DEAD = 2**31 - 1
-# How a half was found from its parent; np.int64, or numba would compile helpers for each of them.
-PASS, STEAL, SKIP, FEED, CHANGE = np.arange(5)
 # Entries of `state`: the step under way; robots served; the sum of their steps; looks in all; the number of the search
 # under way; of this search: halves found, height of its stack.
 STEP, SERVED, TOTAL, LOOKS, STAMP, FOUND, HEIGHT = range(7)
@@ -64,8 +61,7 @@ class GateSearch(NamedTuple):
     seen: OUT_I32  # of each half: the last search that has seen it; `DEAD` where that is of no use ever after
     half: OUT_I32  # the halves found, in their order
     parent: OUT_I32  # from which of them each was found, -1: the first
-    way: OUT_U8  # how
-    changed: OUT_I32  # for which robot, if by `CHANGE`
+    changed: OUT_I32  # for which robot, if it is an in found from another
     stack: OUT_I32  # those from which to look on
     reach: OUT_I32  # of each gate: the last step for which all who might enter it have been looked at
     next_robot: OUT_I64  # of each gate: robots up to this one in its list have been looked at
@@ -77,7 +73,7 @@ GATES, GATE_SLOTS, GATE_SEARCH = declared(Gates), declared(GateSlots), declared(
 
 
 @HELPER
-def _see(half, parent, way, search, state):
+def _see(half, parent, search, state):
     """Put a half of a slot on the stack, unless this search has seen it."""
     if search.seen[half] >= state[STAMP]:
         return
@@ -85,7 +81,6 @@ def _see(half, parent, way, search, state):
     found = state[FOUND]
     search.half[found] = half
     search.parent[found] = parent
-    search.way[found] = way
     search.stack[state[HEIGHT]] = found
     state[FOUND] = found + 1
     state[HEIGHT] += 1
@@ -96,9 +91,9 @@ def _look_from_out(slot, at, slots, search, state):
     """See the in from which a robot would leave by this out: that of the slot, or where its robot now goes."""
     first_in = len(slots.onward)
     if not slots.is_used[slot]:
-        _see(first_in + slot, at, PASS, search, state)
+        _see(first_in + slot, at, search, state)
     elif slots.onward[slot] >= 0:
-        _see(first_in + np.int64(slots.onward[slot]), at, STEAL, search, state)
+        _see(first_in + np.int64(slots.onward[slot]), at, search, state)
 
 
 @HELPER
@@ -121,7 +116,7 @@ def _look_at_arcs(gate, when, at, gates, search, state):
         last = slot_at_0 + when - steps
         state[LOOKS] += max(np.int64(0), last + 1 - first)
         for slot in range(first, last + 1):
-            _see(slot, at, FEED, search, state)
+            _see(slot, at, search, state)
 
 
 @HELPER
@@ -136,7 +131,7 @@ def _look_at_robots(gate, when, at, gates, slots, search, state):
         slot = np.int64(slots.first_slot[np.uint64(gates.robot[i])])
         if slot >= 0 and search.seen[np.uint64(first_in + slot)] < stamp:
             search.changed[state[FOUND]] = gates.robot[i]
-            _see(first_in + slot, at, CHANGE, search, state)
+            _see(first_in + slot, at, search, state)
         i += 1
     state[LOOKS] += i - first
     search.next_robot[gate] = i
@@ -147,7 +142,7 @@ def _look_from_in(gate, when, at, gates, slots, search, state):
     """See all by which a gate might be entered at step `when`."""
     slot = gate * gates.width + when
     if slots.is_used[slot]:
-        _see(slot, at, SKIP, search, state)
+        _see(slot, at, search, state)
     if when > search.reach[gate]:
         _look_at_arcs(gate, when, at, gates, search, state)
         search.reach[gate] = when
@@ -162,7 +157,7 @@ def _find_robot(root, gates, slots, search, state):
     for gate in range(len(gates.steps_out)):
         search.reach[gate] = search.dead_reach[gate]
         search.next_robot[gate] = search.dead_robot[gate]
-    _see(root, _NONE, PASS, search, state)
+    _see(root, _NONE, search, state)
     while state[HEIGHT] > 0:
         state[HEIGHT] -= 1
         state[LOOKS] += 1
@@ -197,16 +192,16 @@ def _serve(at, root, gates, slots, search):
     slot = search.half[at] - count
     slots.first_slot[gates.robot[slots.next_unserved[slot // gates.width]]] = slot
     while search.parent[at] >= 0:
-        slot, ahead = search.half[at] % count, search.half[search.parent[at]] % count
-        way = search.way[at]
-        if way == PASS:
-            slots.is_used[slot] = True
-        elif way == SKIP:
-            slots.is_used[slot] = False
-        elif way == FEED:
-            slots.onward[slot] = ahead
-        elif way == CHANGE:
+        half, half_ahead = search.half[at], search.half[search.parent[at]]
+        slot, ahead = half % count, half_ahead % count
+        if half >= count and half_ahead >= count:  # a robot begins by another slot
             slots.first_slot[search.changed[at]] = ahead
+        elif half >= count:  # where the slots differ, the robot that came there comes no more
+            slots.is_used[slot] |= slot == ahead
+        elif slot == ahead:  # who passed this slot goes elsewhere, and nobody comes in its place
+            slots.is_used[slot] = False
+        else:
+            slots.onward[slot] = ahead
         at = np.int64(search.parent[at])
     slots.onward[root] = SINK
 
