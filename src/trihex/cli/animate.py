@@ -39,13 +39,13 @@ def command(
 
     PLAN is .npz, which holds area and rules itself, or .csv, which needs AREA and the options that it was made with.
     """
-    from trihex.pictures import MOVIE_SUFFIXES as SUFFIXES, write_animation
+    from trihex.pictures import MOVIE_SUFFIXES, write_animation
     from trihex.viewer import PAGE_SUFFIXES, write_page
 
     drawn = {
         name: options.pop(name) for name in ("width", "frames_per_second", "max_frames", "title", "clock", "legend")
     }
-    check_outputs((out, (*SUFFIXES, *PAGE_SUFFIXES), "a movie"))
+    check_outputs((out, (*MOVIE_SUFFIXES, *PAGE_SUFFIXES), "a movie"))
     if beside is not None and out.suffix.lower() not in PAGE_SUFFIXES:
         raise wrong_use(f"--beside is for pages (.html); {out} shows one plan")
     shown = read_judged(plan, area, options)

@@ -29,13 +29,13 @@ def command(source: Path, target: Path, area: Path | None, waypoints: bool, spee
     .txt, images and .toml. Scenarios: .toml and .txt. Starts: .csv. What a format cannot carry is refused.
     """
     from trihex.files import read_bytes
-    from trihex.formats import PLAN_SUFFIXES, WAYPOINT_SUFFIXES, format_of, write_plan, write_waypoints
+    from trihex.formats import FORMATS, PLAN_SUFFIXES, WAYPOINT_SUFFIXES, format_of, write_plan, write_waypoints
 
-    form = format_of(read_bytes(source), source)
-    if form in ("starts", "scen"):
+    form = FORMATS[format_of(read_bytes(source), source)]
+    if form.holds == "starts":
         _convert_starts(source, target, area, options)
         return
-    if form in ("npz", "plan", "parquet"):
+    if form.holds == "plan":
         if waypoints:
             check_outputs((target, WAYPOINT_SUFFIXES, "waypoints"))
         else:

@@ -71,13 +71,13 @@ def command(area: Path, outputs: Outputs, tiling: Tiling, **options: Any) -> Non
 
 
 def _check_outputs(outputs: Outputs) -> None:
-    from trihex.pictures import PICTURE_SUFFIXES as SUFFIXES
+    from trihex.pictures import PICTURE_SUFFIXES
 
     check_outputs(
         (outputs.out, (".npy",), "an N-scheme"),
         (outputs.directions, (".npy",), "a D-scheme"),
-        (outputs.picture, SUFFIXES, "a picture"),
-        (outputs.directions_picture, SUFFIXES, "a picture"),
+        (outputs.picture, PICTURE_SUFFIXES, "a picture"),
+        (outputs.directions_picture, PICTURE_SUFFIXES, "a picture"),
     )
 
 

@@ -49,9 +49,9 @@ def command(
 
     from trihex.areas import GENERATORS
     from trihex.formats import AREA_SUFFIXES, write_area
-    from trihex.pictures import PICTURE_SUFFIXES as SUFFIXES, picture_of_area
+    from trihex.pictures import PICTURE_SUFFIXES, picture_of_area
 
-    check_outputs((out, AREA_SUFFIXES, "an area"), (picture, SUFFIXES, "a picture"))
+    check_outputs((out, AREA_SUFFIXES, "an area"), (picture, PICTURE_SUFFIXES, "a picture"))
     given = {name: value for name, value in options.items() if value is not None}
     known = signature(GENERATORS[kind]).parameters
     for name in given:

@@ -193,12 +193,12 @@ def read_judged(path: Path, area: Path | None, options: dict[str, Any]) -> Plan:
     from dataclasses import replace
 
     from trihex.files import read_bytes
-    from trihex.formats import NAME_OF_FORMAT, draft_of, format_of, read_draft, read_plan
+    from trihex.formats import FORMATS, draft_of, format_of, read_draft, read_plan
 
-    form = format_of(read_bytes(path), path)
-    if form != "npz":
-        if form not in ("plan", "parquet"):
-            raise wrong_use(f"{path} must hold a plan (.npz, .csv or .parquet), not {NAME_OF_FORMAT[form]}")
+    form = FORMATS[format_of(read_bytes(path), path)]
+    if form.holds != "plan":
+        raise wrong_use(f"{path} must hold a plan (.npz, .csv or .parquet), not {form.words}")
+    if not form.brings_scenario:
         if area is None:
             raise wrong_use(f"{path} does not hold its area: add AREA")
         scenario = complete(read_described(area, options), needs_robots=False)

@@ -92,9 +92,9 @@ def _check_outputs(outputs: dict[str, Any], write_scenario: Path | None) -> None
     from trihex.formats import PLAN_SUFFIXES, WAYPOINT_SUFFIXES
 
     if outputs.get("picture"):  # what draws is imported only for who draws
-        from trihex.pictures import PICTURE_SUFFIXES as SUFFIXES
+        from trihex.pictures import PICTURE_SUFFIXES
 
-        check_outputs((outputs["picture"], SUFFIXES, "a picture"))
+        check_outputs((outputs["picture"], PICTURE_SUFFIXES, "a picture"))
     check_outputs(
         (outputs.get("plan"), PLAN_SUFFIXES, "a plan"),
         (outputs.get("summary"), (), "a summary"),

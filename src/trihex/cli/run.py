@@ -108,12 +108,12 @@ def command(beginning: Beginning, way: Way, outputs: Outputs, max_steps: int, **
 
 
 def _check_outputs(outputs: Outputs) -> None:
-    from trihex.pictures import MOVIE_SUFFIXES, PICTURE_SUFFIXES as SUFFIXES
+    from trihex.pictures import MOVIE_SUFFIXES, PICTURE_SUFFIXES
 
     check_outputs(
         (outputs.out, (".npz",), "a run"),
         (outputs.summary, (), "a summary"),
-        (outputs.picture, SUFFIXES, "a picture"),
+        (outputs.picture, PICTURE_SUFFIXES, "a picture"),
         (outputs.animation, MOVIE_SUFFIXES, "a movie"),
     )
 

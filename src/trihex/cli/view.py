@@ -28,7 +28,7 @@ def command(file: Path | None, area: Path | None, port: int, no_browser: bool, *
     The server listens on this machine only, and answers only those who know the address that is told here.
     """
     from trihex.files import read_bytes
-    from trihex.formats import format_of
+    from trihex.formats import FORMATS, format_of
     from trihex.viewer import open_viewer
 
     if file is None and any(value not in (None, ()) for value in options.values()):
@@ -37,7 +37,7 @@ def command(file: Path | None, area: Path | None, port: int, no_browser: bool, *
         raise wrong_use(f"--port must be at most 65535, not {port}")
     record: Any = None
     if file is not None:
-        is_plan = format_of(read_bytes(file), file) in ("npz", "plan", "parquet")
+        is_plan = FORMATS[format_of(read_bytes(file), file)].holds == "plan"
         if area is not None and not is_plan:
             raise wrong_use(f"AREA belongs to a plan; {file} is none")
         record = read_judged(file, area, options) if is_plan else read_described(file, options)

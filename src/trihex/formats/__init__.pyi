@@ -12,7 +12,6 @@ from .reading import (
     read_scenario as read_scenario,
 )
 from .recognise import (
-    NAME_OF_FORMAT as NAME_OF_FORMAT,
     format_of as format_of,
 )
 from .registry import (

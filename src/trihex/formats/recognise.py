@@ -7,8 +7,6 @@ from pathlib import Path
 from trihex.errors import FormatError
 from trihex.formats.registry import FORMATS
 
-# The formats as messages call them.
-NAME_OF_FORMAT = {name: form.words for name, form in FORMATS.items()}
 _UNREADABLE = {
     b"\x93NUMPY": "an .npy array",
     b"%PDF": "a PDF",

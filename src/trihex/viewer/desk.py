@@ -22,7 +22,7 @@ from trihex.bounds import distance_bound, make_lower_bound, slot_bound
 from trihex.errors import FormatError, TooLargeError, TrihexError, check_choice
 from trihex.fields import distance_generations, make_d_scheme
 from trihex.files import read_bytes
-from trihex.formats import Draft, draft_of, format_of, read_draft, read_plan, read_starts
+from trihex.formats import FORMATS, Draft, draft_of, format_of, read_draft, read_plan, read_starts
 from trihex.judging import Report, audit_plan, make_report
 from trihex.planners import PLANNERS, make_plan
 from trihex.plans import Plan
@@ -119,14 +119,14 @@ class Desk:
                 raise FormatError(str(error).replace(f"{folder}/", "")) from None
 
     def _opened(self, path: Path, request: ask.OpenFile, call: Call) -> Bundle:
-        form = format_of(read_bytes(path), path)
+        form = FORMATS[format_of(read_bytes(path), path)]
         seconds: dict[str, float] = {}
         begin = perf_counter()
-        if form in ("npz", "plan", "parquet"):
-            plan = read_plan(path, None if form == "npz" else call.scenario(request))
+        if form.holds == "plan":
+            plan = read_plan(path, None if form.brings_scenario else call.scenario(request))
             seconds["read"] = perf_counter() - begin
             return self._shown(plan, seconds, call)
-        if form in ("starts", "scen"):
+        if form.holds == "starts":
             draft = call.draft(request)
             return _drafted(replace(draft, robots=read_starts(path, draft.area), seed=None))
         options = {name: getattr(request, name) for name in _PLACE}
