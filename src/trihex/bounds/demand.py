@@ -10,9 +10,8 @@ from numpy.typing import NDArray
 
 from trihex.areas import Scenario
 from trihex.bounds.nodes import Nodes
+from trihex.fields import steps_to_destination
 from trihex.record import Record, read_only
-
-_BUDGET = 1_000_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,16 +47,4 @@ class Demand(Record):
 
 def make_demand(scenario: Scenario) -> Demand:
     """Count the steps to the nearest destination from every site."""
-    from trihex.bounds.kernels import steps as kernels
-
-    layout = scenario.area.layout
-    steps = np.full(layout.size, -1, dtype=np.int32)
-    queue = np.empty(scenario.area.free_count, dtype=np.int32)
-    head, tail = 0, scenario.destinations.size
-    queue[:tail] = layout.cell_to_site(scenario.destinations)
-    steps[queue[:tail]] = 0
-    while head < tail:
-        end = min(tail, head + _BUDGET)
-        tail = kernels.count_steps(scenario.moves, layout.offset_of_direction, steps, queue, head, tail, _BUDGET)
-        head = end
-    return Demand(Nodes(scenario, read_only(steps)))
+    return Demand(Nodes(scenario, steps_to_destination(scenario)))
