@@ -177,7 +177,7 @@ def make_n_scheme(
     >>> make_n_scheme(Scenario(Area("square", [[0, 0, 0], [1, 1, 0]]), destinations=[(0, 0)])).distance.tolist()
     [[0, 10, 20], [2147483647, 2147483647, 24]]
     """
-    from trihex.fields.kernels import buckets as kernels
+    from trihex.fields.kernels import front as kernels
 
     distance = _nothing_reached(scenario)
     horizon = _settle(scenario, distance, robots_only, progress)
@@ -190,7 +190,7 @@ def make_n_scheme(
 
 def _nothing_reached(scenario: Scenario) -> NDArray[np.int32]:
     """Return a padded array as the kernel wants it: 0 at destinations, `NOT_REACHED`, and -1 where nobody can go."""
-    from trihex.fields.kernels import buckets as kernels
+    from trihex.fields.kernels import front as kernels
 
     layout = scenario.area.layout
     distance = np.empty(layout.size, dtype=np.int32)
