@@ -165,7 +165,7 @@ class LivingField:
 
 def _corners_of(scenario: Scenario) -> Any:
     """Return when moves are open, as the kernel knows it."""
-    from trihex.fields.kernels.changing import CornerRule
+    from trihex.kernels.corners import CornerRule
     from trihex.kernels.signatures import given
 
     layout = scenario.area.layout

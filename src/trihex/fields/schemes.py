@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -142,8 +143,7 @@ class DScheme(Record):
     def updated(self, *, blocked: ArrayLike = (), freed: ArrayLike = (), destinations: ArrayLike = ()) -> DScheme:
         """Return the D-scheme of the scenario with other barriers or destinations, see `NScheme.updated`."""
         n_scheme, directions = _updated(self.n_scheme, self.directions_of_site, blocked, freed, destinations)
-        assert directions is not None
-        return DScheme(n_scheme, read_only(directions))
+        return DScheme(n_scheme, read_only(cast("NDArray[np.uint16]", directions)))
 
 
 def make_n_scheme(

@@ -146,8 +146,7 @@ def _unsettled(blocked: NDArray[np.bool_], layout: Layout) -> tuple[NDArray[np.i
     distance = np.empty(layout.size, dtype=np.int32)
     distance[: layout.origin] = distance[layout.origin + layout.height * layout.pitch :] = -1
     kernels.prepare(blocked, layout.origin, layout.pitch, distance)
-    rows = distance[layout.origin : layout.origin + layout.height * layout.pitch]
-    cells = rows.reshape(layout.height, layout.pitch)[:, : layout.width]
+    cells = layout.view_of(distance)
     beyond = MARGIN - HALO
     cells[:beyond] = cells[-beyond:] = cells[:, :beyond] = cells[:, -beyond:] = -1
     return distance, cells

@@ -49,8 +49,8 @@ class Buckets(NamedTuple):
 class Tails(NamedTuple):
     """Where the next entries go in the lists of the next bucket and of the one after it."""
 
-    near: int
-    far: int
+    near: types.uint64
+    far: types.uint64
 
 
 _SIGNATURE = types.void(declared(Buckets), FRONT_MOVES, FRONT_CELLS, types.int64)

@@ -1,21 +1,10 @@
 """Moves of an area whose barriers change."""
 
-from typing import NamedTuple
-
 from numba import types
 
 from trihex.kernels.codes import ALLOW, NO_CUT
-from trihex.kernels.signatures import HELPER, IN_BOOL, IN_I32, OUT_I32, OUT_U16, TABLE_I32, declared, kernel
-
-
-class CornerRule(NamedTuple):
-    """How cells lie around one another, and when a move through a vertex is open."""
-
-    offset: TABLE_I32  # what a direction adds to a site, by parity of the site
-    vertex: TABLE_I32  # what to add to a site for the vertex that a direction passes
-    ring: IN_I32  # what to add to a vertex for the sites around it, clockwise
-    edge_count: types.int64  # directions from there on pass vertices
-    rule: types.int64  # `ALLOW`, `NO_SQUEEZE` or `NO_CUT`
+from trihex.kernels.corners import CORNER_RULE
+from trihex.kernels.signatures import HELPER, IN_BOOL, IN_I32, OUT_I32, OUT_U16, kernel
 
 
 @HELPER
@@ -53,7 +42,7 @@ def _open_moves(site, blocked, corners):
     return bits
 
 
-@kernel(types.void(IN_I32, IN_BOOL, declared(CornerRule), OUT_U16, OUT_I32))
+@kernel(types.void(IN_I32, IN_BOOL, CORNER_RULE, OUT_U16, OUT_I32))
 def renew_moves(changed, blocked, corners, moves, around):
     """Find the open moves of the `changed` sites and their neighbours anew, and fill `around` with those sites.
 

@@ -1,8 +1,8 @@
 """Fronts: entries that wait to be expanded, and the moves worth trying from each.
 
-What both ways of settling a field, by buckets and by a queue, have in common. One array of int32 holds barriers and the
-padding (-1), what is settled and what is not yet reached (`NOT_REACHED`), so that one comparison tells whether a move is
-open and brings anything.
+What both ways of settling a field, by buckets and by a queue, have in common. One array of int32 holds barriers and
+the padding (-1), what is settled and what is not yet reached (`NOT_REACHED`), so that one comparison tells whether a
+move is open and brings anything.
 """
 
 from typing import NamedTuple
@@ -41,10 +41,10 @@ class FrontCells(NamedTuple):
 class Expanded(NamedTuple):
     """The entry that is being expanded."""
 
-    site: int
-    row: int  # where its moves begin in the table
-    distance: int
-    open_moves: int
+    site: types.uint64
+    row: types.uint64  # where its moves begin in the table
+    distance: types.int32
+    open_moves: types.uint64
 
 
 FRONT_MOVES, FRONT_CELLS = declared(FrontMoves), declared(FrontCells)

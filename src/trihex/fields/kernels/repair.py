@@ -30,7 +30,8 @@ from trihex.kernels.signatures import (
 RAISE, LOWER = 0, 1
 LOG_FULL = 4  # why a wave may return, beside those of `front`
 # What `state` holds: which list is read, at which entry, how many entries the three lists have in the order of their
-# turns, the value at which the bucket being read ends, how much of the beginnings and of the log is used, why it returned.
+# turns, the value at which the bucket being read ends, how much of the beginnings and of the log is used, and why the
+# kernel returned.
 LIST, AT, COUNT, NEAR_COUNT, FAR_COUNT, BUCKET_END, BEGUN, LOGGED, REASON, STATE_SIZE = range(10)
 _SITE = (1 << 32) - 1  # the low half of a beginning; the high half is its value
 
