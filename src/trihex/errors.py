@@ -20,6 +20,7 @@ Every error that a caller may want to catch descends from `TrihexError`, and fro
 from __future__ import annotations
 
 from collections.abc import Iterable
+from numbers import Integral
 
 
 class TrihexError(Exception):
@@ -79,3 +80,11 @@ def check_choice(parameter: str, value: object, choices: Iterable[str], error: t
     near = get_close_matches(str(value)[:80].lower(), names, n=1)
     hint = f"; did you mean {near[0]!r}?" if near else ""
     raise error(f"{parameter} must be one of {', '.join(names)}, not {value!r:.80}{hint}")
+
+
+def check_whole(parameter: str, value: object, least: int, most: int | None, error: type[TrihexError]) -> None:
+    """Raise `error` unless `value` is a whole number, numpy's among them, from `least` to `most` (None: no end)."""
+    is_whole = isinstance(value, Integral) and not isinstance(value, bool)
+    if not is_whole or int(value) < least or (most is not None and int(value) > most):  # type: ignore[call-overload]
+        end = "" if most is None else f" to {most}"
+        raise error(f"{parameter} must be a whole number from {least}{end}, not {value!r}")

@@ -9,7 +9,7 @@ import pytest
 
 import trihex as th
 from tests.oracles.lattice import Lattice
-from trihex.areas import GENERATORS, generators
+from trihex.areas import GENERATORS
 
 TESSELLATIONS = ("square", "hexagonal", "triangular")
 CONNECTED = [kind for kind in GENERATORS if kind != "random"]
@@ -68,10 +68,14 @@ def test_free_cells_are_connected_through_edges(kind, name):
             assert len(regions(lattice_of(area, "edge"), free_cells(area))) == 1
 
 
-@pytest.mark.parametrize("kind", ["maze", "caves"])
-def test_work_in_pieces_changes_nothing(kind, monkeypatch):
+@pytest.mark.parametrize(
+    ("kind", "pieces"),
+    [("maze", ["generators.maze._BUDGET"]), ("caves", ["generators.caves._SITES_AT_ONCE", "regions._SITES_AT_ONCE"])],
+)
+def test_work_in_pieces_changes_nothing(kind, pieces, monkeypatch):
     areas = [GENERATORS[kind](name, 21, 34, seed=5) for name in TESSELLATIONS]
-    monkeypatch.setattr(generators, "_BUDGET", 40)
+    for piece in pieces:
+        monkeypatch.setattr(f"trihex.areas.{piece}", 40)
     assert areas == [GENERATORS[kind](name, 21, 34, seed=5) for name in TESSELLATIONS]
 
 

@@ -168,6 +168,20 @@ def test_layout_turns_cells_into_sites_and_back():
     assert np.array_equal(layout.cells_of(padded).reshape(-1), layout.cell_to_site(cells))
 
 
+@pytest.mark.parametrize("name", TESSELLATIONS)
+def test_views_of_a_layout_are_written_to_and_between_them_hold_all_rows(name):
+    layout = th.Area(name, np.zeros((3, 4), bool)).layout
+    padded = np.zeros(layout.size, dtype=np.int64)
+    layout.view_of(padded)[:] = np.arange(12).reshape(3, 4) + 1
+    layout.margin_of(padded)[:] = -1
+    assert padded[layout.cell_to_site(np.arange(12))].tolist() == list(range(1, 13))
+    assert not padded[: layout.origin].any()
+    assert not padded[layout.origin + 3 * layout.pitch :].any()
+    assert np.count_nonzero(padded) == 3 * layout.pitch
+    with pytest.raises(ValueError, match="read-only"):
+        layout.cells_of(padded)[0, 0] = 1
+
+
 @pytest.mark.parametrize(
     ("names", "message"),
     [

@@ -26,6 +26,9 @@ from .generators import (
 from .ground import (
     Ground as Ground,
 )
+from .layout import (
+    Layout as Layout,
+)
 from .regions import (
     make_regions as make_regions,
 )
@@ -39,7 +42,6 @@ from .tessellation import (
     COSTS as COSTS,
     NEIGHBOURHOODS as NEIGHBOURHOODS,
     TESSELLATIONS as TESSELLATIONS,
-    Layout as Layout,
     Tessellation as Tessellation,
 )
 from .world import (

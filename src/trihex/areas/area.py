@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from trihex.areas.frame import Frame
-from trihex.areas.tessellation import Layout, Tessellation
+from trihex.areas.layout import Layout
+from trihex.areas.tessellation import Tessellation
 from trihex.errors import AreaError, TrihexError
 from trihex.record import Record, read_only
 

@@ -127,7 +127,8 @@ def cover_raster(
     TooLargeError
         If there would be too many cells.
     """
-    from trihex.areas.kernels.coverage import fill_covered
+    from trihex.areas.kernels import coverage as kernels
+    from trihex.kernels.signatures import given
 
     occupied = np.ascontiguousarray(occupied, dtype=bool)
     if occupied.ndim != 2 or occupied.size == 0:
@@ -142,10 +143,11 @@ def cover_raster(
     radius = covering.robot_radius / covering.cell_size + _MARGIN
     reach = np.hypot(star[..., 0], star[..., 1]).max() + radius
     rows_at_once = max(1, floor(_PIXELS_AT_ONCE / ((2 * reach / pixel + 2) ** 2 * width)))
+    raster = given(kernels.Raster, occupied, pixel, is_outside_occupied)
     for first, last in _bands(height, rows_at_once, progress):
         x, y, orientation = _cells_of_rows(tessellation, width, first, last)
         inside = barriers[first * width : last * width]
-        fill_covered(occupied, pixel, radius, is_outside_occupied, x, y, orientation, star, inside)
+        kernels.fill_covered(raster, given(kernels.CellStars, x, y, orientation, star), radius, inside)
     return Area(tessellation, barriers.reshape(height, width), name, frame)
 
 

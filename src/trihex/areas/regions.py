@@ -43,18 +43,16 @@ def make_regions(area: Area) -> Regions:
     >>> make_regions(Area("square", [[0, 1, 0, 0], [1, 1, 0, 0]])).region_of_cell.tolist()
     [[1, -1, 0, 0], [-1, -1, 0, 0]]
     """
-    from trihex.areas.kernels.moves import fill_blocked
     from trihex.areas.kernels.regions import label_regions
 
     layout = area.layout
-    blocked, stack = np.empty(layout.size, dtype=bool), np.empty(layout.size, dtype=np.int32)
+    blocked, stack = area.make_blocked(), np.empty(layout.size, dtype=np.int32)
     region = np.full(layout.size, -1, dtype=np.int32)
-    fill_blocked(area.barriers, layout.origin, layout.pitch, blocked)
     state = np.zeros(3, dtype=np.int64)
     while state[0] < layout.size or state[1]:
         label_regions(blocked, layout.offset_of_direction, _SITES_AT_ONCE, state, stack, region)
-    own = region[layout.cell_to_site(np.arange(area.cell_count))]
-    sizes = np.bincount(own[own >= 0], minlength=int(state[2]))
+    own = layout.view_of(region)
+    sizes = np.bincount((own + 1).reshape(-1), minlength=int(state[2]) + 1)[1:]  # but for that of barriers
     order = np.argsort(-sizes, kind="stable")
     rank = np.append(np.argsort(order), -1).astype(np.int32)  # the last one stands for barriers
-    return Regions(area, rank[own].reshape(area.barriers.shape), sizes[order])
+    return Regions(area, rank[own], sizes[order])

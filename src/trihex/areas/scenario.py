@@ -11,11 +11,12 @@ from numpy.typing import NDArray
 
 from trihex.areas.area import Area, cells_from
 from trihex.areas.clearance import check_cell_size, check_rules
-from trihex.errors import ScenarioError, check_choice
+from trihex.errors import ScenarioError, check_choice, check_whole
 from trihex.record import Record, read_only
 
 CROSSINGS = ("forbid", "allow")
 CORNERS = ("allow", "no-squeeze", "no-cut")
+_MOST = 2**30  # the largest whole number that a parameter may be: sums of a few fit into int32
 _BLOCK = 1 << 24  # sites a kernel looks at in one call, even; Ctrl-C works in between
 
 
@@ -75,11 +76,11 @@ class Scenario(Record):
         check_choice("corners", self.corners, CORNERS, ScenarioError)
         if self.waiting_cost is None:
             self._set("waiting_cost", area.tessellation.edge_cost)
-        _check_whole("waiting_cost", self.waiting_cost, 0)
+        check_whole("waiting_cost", self.waiting_cost, 0, _MOST, ScenarioError)
         if self.destination_capacity is None and area.frame is not None:
             self._set("destination_capacity", 1)
         if self.destination_capacity is not None:
-            _check_whole("destination_capacity", self.destination_capacity, 1)
+            check_whole("destination_capacity", self.destination_capacity, 1, _MOST, ScenarioError)
         if area.frame is not None:
             check_cell_size(area.tessellation, area.frame)
             check_rules(area.tessellation, area.frame, self.crossing, self.destination_capacity)
@@ -122,24 +123,25 @@ class Scenario(Record):
     @cached_property
     def moves(self) -> NDArray[np.uint16]:
         """Open moves of each site: bit k is set where direction k may be taken; shape (layout.size,)."""
-        from trihex.areas.kernels import moves as kernels
+        from trihex.areas.kernels.moves import BLOCK, fill_moves
+        from trihex.kernels.corners import CornerRule
+        from trihex.kernels.signatures import given
 
-        layout, tessellation = self.area.layout, self.area.tessellation
-        blocked = self.area.make_blocked()
+        layout = self.area.layout
+        corners = given(
+            CornerRule,
+            offset=layout.offset_of_direction,
+            vertex=layout.vertex_of_direction,
+            ring=layout.ring_of_vertex,
+            edge_count=self.area.tessellation.edge_count,
+            rule=self.corner_rule,
+        )
+        blocked = self.area.make_blocked().view(np.uint8)
         moves = np.zeros(layout.size, dtype=np.uint16)
+        one_way, other_way = np.empty(BLOCK, dtype=np.uint8), np.empty(BLOCK, dtype=np.uint8)
         end = layout.origin + layout.height * layout.pitch
         for start in range(layout.origin, end, _BLOCK):
-            kernels.fill_moves(
-                blocked,
-                start,
-                min(start + _BLOCK, end),
-                layout.offset_of_direction,
-                layout.vertex_of_direction,
-                layout.ring_of_vertex,
-                tessellation.edge_count,
-                self.corner_rule,
-                moves,
-            )
+            fill_moves(blocked, start, min(start + _BLOCK, end), corners, one_way, other_way, moves)
         return read_only(moves)
 
     def with_robots(self, robots: Any, seed: int | None = None) -> Scenario:
@@ -164,20 +166,14 @@ def random_robots(area: Area, count: int, seed: int = 0, *, avoid: Any = ()) -> 
     ScenarioError
         If there are fewer free cells than robots.
     """
-    _check_whole("robots", count, 0)
-    _check_whole("seed", seed, 0)
+    check_whole("robots", count, 0, _MOST, ScenarioError)
+    check_whole("seed", seed, 0, _MOST, ScenarioError)
     is_free = ~area.barriers.reshape(-1)
     is_free[cells_from(area, avoid, "avoid", ScenarioError)] = False
     free = np.flatnonzero(is_free)
     if count > free.size:
         raise ScenarioError(f"robots must be at most the number of free cells, {free.size}, not {count}")
     return np.random.default_rng(seed).choice(free, size=count, replace=False).astype(np.int64)
-
-
-def _check_whole(parameter: str, value: object, least: int) -> None:
-    whole = isinstance(value, int | np.integer) and not isinstance(value, bool)
-    if not whole or not least <= int(value) <= 2**30:  # type: ignore[call-overload]
-        raise ScenarioError(f"{parameter} must be a whole number from {least} to {2**30}, not {value!r}")
 
 
 def _check_free(area: Area, cells: NDArray[np.int64], one: str) -> None:

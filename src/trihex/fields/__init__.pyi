@@ -1,7 +1,9 @@
 from .automaton import (
-    OBSTACLE as OBSTACLE,
     CellularAutomaton as CellularAutomaton,
     LastGeneration as LastGeneration,
+)
+from .distance_automaton import (
+    OBSTACLE as OBSTACLE,
     distance_generations as distance_generations,
     make_distance_automaton as make_distance_automaton,
     make_distance_configuration as make_distance_configuration,

@@ -1,35 +1,21 @@
 """Table of a front: the moves worth trying after the move that led to a cell."""
 
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from trihex.areas import Layout
+
 Step = tuple[int, int]
 
 
-def make_front_table(
-    step: NDArray[np.int32], offset: NDArray[np.int32], cost: NDArray[np.int32], edge_count: int, is_free_to_turn: bool
-) -> tuple[NDArray[np.uint64], NDArray[np.uint64], tuple[int, ...], tuple[list[int], list[int]]]:
-    """Return which moves may be the first to reach a cell, given the move that reached the cell before.
+class FrontTable(NamedTuple):
+    """The moves worth trying after the move that led to a cell.
 
-    A robot that came from p to c and goes on to n might as well have gone from p to n, if n is p or a neighbour of p:
-    no move costs more than two others. So c need not try n. Of 8 or 12 moves, 3 to 7 are left.
-
-    Parameters
+    Attributes
     ----------
-    step : (2, directions, 2) array
-        dx and dy of the directions, for both orientations.
-    offset : (2, directions) array
-        What to add to a site; ``site & 1`` is the orientation, unless both rows of `step` are equal.
-    cost : (directions,) array
-        Ascending. Directions of equal cost form a *group*.
-    edge_count : int
-    is_free_to_turn : bool
-        Whether every move to a free cell is open. If not, only edge moves are sure to be open from p to n.
-
-    Returns
-    -------
     table : uint64 array
         One row for each kind of move (orientation of the source, direction): the moves worth trying after it, by
         group, padded with moves that go nowhere; then what lies four such moves ahead. A move is what to add to a
@@ -41,14 +27,38 @@ def make_front_table(
     first : two lists of int
         Starts of rows that between them try all moves from a cell of orientation 0 and 1, to begin with.
     """
+
+    table: NDArray[np.uint64]
+    direction: NDArray[np.uint64]
+    slots: tuple[int, ...]
+    first: tuple[list[int], list[int]]
+
+
+def make_front_table(layout: Layout, is_free_to_turn: bool) -> FrontTable:
+    """Return which moves may be the first to reach a cell, given the move that reached the cell before.
+
+    A robot that came from p to c and goes on to n might as well have gone from p to n, if n is p or a neighbour of p:
+    no move costs more than two others. So c need not try n. Of 8 or 12 moves, 3 to 7 are left. Directions of equal
+    cost form a *group*.
+
+    Parameters
+    ----------
+    layout : Layout
+    is_free_to_turn : bool
+        Whether every move to a free cell is open. If not, only edge moves are sure to be open from p to n.
+    """
+    tessellation, offset = layout.tessellation, layout.offset_of_direction
+    step, cost = tessellation.step_of_direction, tessellation.cost_of_direction
     steps = tuple(tuple((dx, dy) for dx, dy in side) for side in step.tolist())
     parities = tuple(tuple(o & 1 for o in side) for side in offset.tolist())
-    kind, direction, slots, first = _kinds_of_moves(steps, parities, tuple(cost.tolist()), edge_count, is_free_to_turn)
+    kind, direction, slots, first = _kinds_of_moves(
+        steps, parities, tuple(cost.tolist()), tessellation.edge_count, is_free_to_turn
+    )
     columns = kind.shape[1]
     flat = offset.astype(np.int64).reshape(-1)
     table = np.where(kind < 0, 0, (kind * columns << 32) + flat[kind])
     table[:, -1] = 4 * flat[: len(kind)]
-    return table.astype(np.uint64).reshape(-1), direction.reshape(-1), slots, first
+    return FrontTable(table.astype(np.uint64).reshape(-1), direction.reshape(-1), slots, first)
 
 
 @lru_cache

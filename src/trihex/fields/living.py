@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from trihex.areas import Scenario, World, cells_from
 from trihex.errors import ScenarioError
-from trihex.fields.wave import BUDGET, Wave, renew_directions
+from trihex.fields.wave import Wave
 from trihex.kernels.codes import NOT_REACHED
 
 
@@ -80,6 +80,7 @@ class LivingField:
         self.directions_of_site = None if directions_of_site is None else directions_of_site.copy()
         self.moves = scenario.moves.copy()
         self.world = World(scenario)
+        self._corners = _corners_of(scenario)
         self._wave = Wave(scenario, self.moves, self.distance_of_site)
 
     @property
@@ -125,23 +126,12 @@ class LivingField:
         return self._repair(self.world.change(**cells))
 
     def _repair(self, site: dict[str, NDArray[np.int32]]) -> Repair:
-        from trihex.fields.kernels import repair as kernels
+        from trihex.fields.kernels.changing import renew_moves
 
-        layout, tessellation = self.layout, self.area.tessellation
-        offset, cost, distance = layout.offset_of_direction, tessellation.cost_of_direction, self.distance_of_site
+        distance = self.distance_of_site
         changed = np.concatenate(list(site.values()))
-        around = np.empty(changed.size * (tessellation.direction_count + 1), dtype=np.int32)
-        kernels.renew_moves(
-            changed,
-            self.blocked,
-            offset,
-            layout.vertex_of_direction,
-            layout.ring_of_vertex,
-            tessellation.edge_count,
-            self.scenario.corner_rule,
-            self.moves,
-            around,
-        )
+        around = np.empty(changed.size * (self.area.tessellation.direction_count + 1), dtype=np.int32)
+        renew_moves(changed, self.blocked, self._corners, self.moves, around)
         gone = np.concatenate([site["blocked"], site["closed"]])
         gone = gone[distance[gone] != NOT_REACHED]
         distance[gone] = NOT_REACHED
@@ -149,10 +139,7 @@ class LivingField:
 
         distance[site["opened"]] = 0
         concerned = np.concatenate([raised, around])
-        best = np.empty(concerned.size, dtype=np.int32)
-        for start in range(0, concerned.size, BUDGET):
-            part = slice(start, start + BUDGET)
-            kernels.find_best(concerned[part], self.moves, offset, cost, distance, best[part])
+        best = self._wave.best_of(concerned)
         is_better = best < distance[concerned]
         better, best = concerned[is_better], best[is_better]
         distance[better] = best
@@ -160,5 +147,21 @@ class LivingField:
 
         sites = np.concatenate([concerned, lowered])
         if self.directions_of_site is not None:
-            renew_directions(self.scenario, sites, self.moves, distance, self.directions_of_site)
+            self._wave.renew_directions(sites, self.directions_of_site)
         return Repair(raised.size, lowered.size, sites)
+
+
+def _corners_of(scenario: Scenario) -> Any:
+    """Return when moves are open, as the kernel knows it."""
+    from trihex.kernels.corners import CornerRule
+    from trihex.kernels.signatures import given
+
+    layout = scenario.area.layout
+    return given(
+        CornerRule,
+        offset=layout.offset_of_direction,
+        vertex=layout.vertex_of_direction,
+        ring=layout.ring_of_vertex,
+        edge_count=scenario.area.tessellation.edge_count,
+        rule=scenario.corner_rule,
+    )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -57,24 +58,23 @@ class NScheme(Record):
         asked for, in time O(b); the fast kernel does not work in generations.
         """
         from trihex.fields.kernels import generations as kernels
+        from trihex.kernels.signatures import given
 
         layout, tessellation = self.scenario.area.layout, self.scenario.area.tessellation
         queue = np.empty(self.scenario.area.free_count, dtype=np.int32)
         state = np.zeros(kernels.STATE_SIZE, dtype=np.int64)
         state[kernels.TAIL] = state[kernels.GENERATION_END] = self.scenario.destinations.size
         queue[: state[kernels.TAIL]] = layout.cell_to_site(self.scenario.destinations)
-        is_seen = self.distance_of_site == 0
+        settled = given(
+            kernels.SettledField,
+            distance=self.distance_of_site,
+            moves=self.scenario.moves,
+            offset=layout.offset_of_direction,
+            cost=tessellation.cost_of_direction,
+        )
+        search = given(kernels.BreadthSearch, state=state, queue=queue, is_seen=self.distance_of_site == 0)
         while state[kernels.AT] < state[kernels.TAIL]:
-            kernels.count_generations(
-                self.distance_of_site,
-                self.scenario.moves,
-                layout.offset_of_direction,
-                tessellation.cost_of_direction,
-                is_seen,
-                queue,
-                state,
-                _BUDGET,
-            )
+            kernels.count_generations(settled, search, _BUDGET)
         return int(state[kernels.GENERATION])
 
     @cached_property
@@ -142,8 +142,7 @@ class DScheme(Record):
     def updated(self, *, blocked: ArrayLike = (), freed: ArrayLike = (), destinations: ArrayLike = ()) -> DScheme:
         """Return the D-scheme of the scenario with other barriers or destinations, see `NScheme.updated`."""
         n_scheme, directions = _updated(self.n_scheme, self.directions_of_site, blocked, freed, destinations)
-        assert directions is not None
-        return DScheme(n_scheme, read_only(directions))
+        return DScheme(n_scheme, read_only(cast("NDArray[np.uint16]", directions)))
 
 
 def make_n_scheme(
@@ -177,7 +176,7 @@ def make_n_scheme(
     >>> make_n_scheme(Scenario(Area("square", [[0, 0, 0], [1, 1, 0]]), destinations=[(0, 0)])).distance.tolist()
     [[0, 10, 20], [2147483647, 2147483647, 24]]
     """
-    from trihex.fields.kernels import buckets as kernels
+    from trihex.fields.kernels import front as kernels
 
     distance = _nothing_reached(scenario)
     horizon = _settle(scenario, distance, robots_only, progress)
@@ -190,7 +189,7 @@ def make_n_scheme(
 
 def _nothing_reached(scenario: Scenario) -> NDArray[np.int32]:
     """Return a padded array as the kernel wants it: 0 at destinations, `NOT_REACHED`, and -1 where nobody can go."""
-    from trihex.fields.kernels import buckets as kernels
+    from trihex.fields.kernels import front as kernels
 
     layout = scenario.area.layout
     distance = np.empty(layout.size, dtype=np.int32)
@@ -245,15 +244,12 @@ def make_d_scheme(n_scheme: NScheme) -> DScheme:
     end = layout.origin + layout.height * layout.pitch
     directions = np.empty(layout.size, dtype=np.uint16)
     directions[: layout.origin] = directions[end:] = 0
+    offset, cost = layout.offset_of_direction, scenario.area.tessellation.cost_of_direction
+    is_odd = np.arange(kernels.BLOCK, dtype=np.uint16) & 1
+    halves = np.empty(kernels.BLOCK + 2 * int(np.abs(offset).max()), dtype=np.uint16)
     for start in range(layout.origin, end, _BLOCK):
-        kernels.fill_directions(
-            n_scheme.distance_of_site,
-            layout.offset_of_direction,
-            scenario.area.tessellation.cost_of_direction,
-            start,
-            min(start + _BLOCK, end),
-            directions,
-        )
+        stop = min(start + _BLOCK, end)
+        kernels.fill_directions(n_scheme.distance_of_site, offset, cost, start, stop, is_odd, halves, directions)
     if scenario.corners != "allow":
         directions &= scenario.moves
     return DScheme(n_scheme, read_only(directions))

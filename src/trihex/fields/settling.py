@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from trihex.areas import Layout
 from trihex.errors import ScenarioError
-from trihex.fields.front import make_front_table
+from trihex.fields.front import FrontTable, make_front_table
 from trihex.kernels.codes import NOT_REACHED
 
 _BUDGET = 1 << 16  # cells settled in one call of a kernel, about 1 ms
@@ -51,70 +51,66 @@ def settle(
     ScenarioError
         If a cell is farther than 2 000 000 000 and yet can be reached.
     """
-    from trihex.fields.kernels import buckets as kernels
+    from trihex.fields.kernels import buckets as kernels, front
+    from trihex.kernels.signatures import given
 
-    tessellation = layout.tessellation
-    table, direction, slots, first = make_front_table(
-        tessellation.step_of_direction,
-        layout.offset_of_direction,
-        tessellation.cost_of_direction,
-        tessellation.edge_count,
-        moves is None,
-    )
-    is_masked = moves is not None
-    open_moves = np.empty(0, dtype=np.uint16) if moves is None else moves
-    cost = np.unique(tessellation.cost_of_direction)
-    steps = _Steps(table, direction, cost, open_moves, slots, is_masked, layout.pitch)
-    seeds, value_of_seed = _seeds(sites, values, first)
+    steps = _steps_of(layout, moves, distance)
+    settle_some = kernels.make_settle(steps.table.slots, moves is not None)
+    seeds, value_of_seed = _seeds(sites, values, steps.table.first)
     lists = np.empty((3, _LEAST_LIST), dtype=np.uint64)
     state = np.zeros(kernels.STATE_SIZE, dtype=np.int64)
-    kernel = kernels.make_settle(slots, is_masked)
+    buckets = given(kernels.Buckets, state, lists.reshape(-1), seeds, value_of_seed)
+    width = int(steps.moves.cost[0])
     budget, in_queue = _FIRST_BUDGET, layout.height * layout.width
     while True:
         start = int(state[kernels.BUCKET_END])
-        kernel(
-            state, lists.reshape(-1), seeds, value_of_seed, table, direction, cost, open_moves, distance,
-            layout.pitch, budget,
-        )  # fmt: skip
-        end = int(state[kernels.BUCKET_END])
-        if state[kernels.REASON] == kernels.DONE:
+        settle_some(buckets, steps.moves, steps.cells, budget)
+        end, reason = int(state[kernels.BUCKET_END]), state[kernels.REASON]
+        if reason == front.DONE:
             return NOT_REACHED
-        if state[kernels.REASON] == kernels.TOO_FAR:
-            raise ScenarioError(f"distances must stay below {kernels.FARTHEST}; a cell that can be reached is farther")
-        if state[kernels.REASON] == kernels.LISTS_FULL:
+        if reason == front.TOO_FAR:
+            raise ScenarioError(f"distances must stay below {front.FARTHEST}; a cell that can be reached is farther")
+        if reason == front.LISTS_FULL:
             lists = np.concatenate([lists, np.empty_like(lists)], axis=1)
+            buckets = buckets._replace(lists=lists.reshape(-1))
         if look is not None and look(end):
             return end
-        are_thin = state[kernels.REASON] == kernels.GO_ON and budget * cost[0] < _THIN * (end - start)
-        if are_thin and state[kernels.SEED] == len(seeds) and in_queue > 0 and end < kernels.FARTHEST // 2:
-            entries, expanded, horizon = _spread(steps, distance, _waiting(state, lists), look, in_queue)
+        are_thin = reason == front.GO_ON and budget * width < _THIN * (end - start)
+        if are_thin and state[kernels.SEED] == len(seeds) and in_queue > 0 and end < front.FARTHEST // 2:
+            entries, expanded, horizon = _spread(steps, _waiting(state, lists), look, in_queue)
             if entries.size == 0 or horizon is not None:
                 return NOT_REACHED if horizon is None else horizon
             in_queue -= expanded
             seeds, value_of_seed = _sorted(entries, distance)
+            buckets = given(kernels.Buckets, state, lists.reshape(-1), seeds, value_of_seed)
             state[:] = 0
         budget = _BUDGET
 
 
-@dataclass(frozen=True)
-class _Steps:
-    """What both kernels are told of the moves, see `trihex.fields.kernels.buckets.make_settle`."""
+class _Steps(NamedTuple):
+    """What both ways of settling are told of the moves and the cells."""
 
-    table: NDArray[np.uint64]
-    direction: NDArray[np.uint64]
-    cost: NDArray[np.int32]
-    open_moves: NDArray[np.uint16]
-    slots: tuple[int, ...]
-    is_masked: bool
-    pitch: int
+    table: FrontTable
+    moves: Any  # `trihex.fields.kernels.front.FrontMoves`
+    cells: Any  # `trihex.fields.kernels.front.FrontCells`
+
+
+def _steps_of(layout: Layout, moves: NDArray[np.uint16] | None, distance: NDArray[np.int32]) -> _Steps:
+    from trihex.fields.kernels.front import FrontCells, FrontMoves
+    from trihex.kernels.signatures import given
+
+    table = make_front_table(layout, moves is None)
+    cost = np.unique(layout.tessellation.cost_of_direction)
+    open_moves = np.empty(0, dtype=np.uint16) if moves is None else moves
+    return _Steps(
+        table,
+        given(FrontMoves, table.table, table.direction, cost, layout.pitch),
+        given(FrontCells, distance, open_moves),
+    )
 
 
 def _spread(
-    steps: _Steps,
-    distance: NDArray[np.int32],
-    entries: NDArray[np.uint64],
-    look: Callable[[int], bool] | None,
-    most: int,
+    steps: _Steps, entries: NDArray[np.uint64], look: Callable[[int], bool] | None, most: int
 ) -> tuple[NDArray[np.uint64], int, int | None]:
     """Spread from `entries` through one queue for as long as it is short.
 
@@ -126,16 +122,18 @@ def _spread(
     entries, expanded, horizon
         What waits now, how many entries were expanded, and what is settled if `look` put an end to it.
     """
-    from trihex.fields.kernels import buckets as fields, queue as kernels
+    from trihex.fields.kernels import front, queue as kernels
 
-    kernel = kernels.make_spread(steps.slots, steps.is_masked)
+    distance = steps.cells.distance
+    spread_some = kernels.make_spread(steps.table.slots, steps.cells.moves.size > 0)
     queue = np.empty(max(kernels.QUEUE_SIZE, 2 * entries.size), dtype=np.uint64)
     queue[: entries.size] = entries
     state = np.zeros(kernels.STATE_SIZE, dtype=np.int64)
     state[kernels.TAIL] = entries.size
+    waiting = kernels.FrontQueue(state, queue)
     expanded = 0
     while True:
-        kernel(state, queue, steps.table, steps.direction, steps.cost, steps.open_moves, distance, steps.pitch, _BUDGET)
+        spread_some(waiting, steps.moves, steps.cells, _BUDGET)
         expanded += _BUDGET
         entries = queue[state[kernels.AT] : state[kernels.TAIL]]
         if entries.size == 0:
@@ -145,7 +143,7 @@ def _spread(
         if look is not None and look(horizon):
             return entries, expanded, horizon
         # Far from the least distance that is too far, so that no sum in this kernel overflows.
-        if state[kernels.REASON] == kernels.QUEUE_FULL or expanded >= most or values.max() > fields.FARTHEST // 2:
+        if state[kernels.REASON] == front.LISTS_FULL or expanded >= most or values.max() > front.FARTHEST // 2:
             return entries, expanded, None
 
 

@@ -100,7 +100,7 @@ def settle_tile(ground: Ground, row: int, column: int, visited: NDArray[np.bool_
     dict
         By neighbour, as (rows south, columns east) of the tile: the least value that its cells next to it can take.
     """
-    from trihex.fields.kernels import buckets as kernels
+    from trihex.fields.kernels import front as kernels
 
     barriers, field = open_cells(ground.barriers), open_cells(ground.distance, "r+")
     height, width = barriers.shape
@@ -141,13 +141,12 @@ def _blocked(barriers: Any, top: int, left: int, bottom: int, right: int) -> NDA
 
 def _unsettled(blocked: NDArray[np.bool_], layout: Layout) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Return a padded array as `settle` wants it, and a view of its cells; what lies beyond the halo is closed."""
-    from trihex.fields.kernels import buckets as kernels
+    from trihex.fields.kernels import front as kernels
 
     distance = np.empty(layout.size, dtype=np.int32)
     distance[: layout.origin] = distance[layout.origin + layout.height * layout.pitch :] = -1
     kernels.prepare(blocked, layout.origin, layout.pitch, distance)
-    rows = distance[layout.origin : layout.origin + layout.height * layout.pitch]
-    cells = rows.reshape(layout.height, layout.pitch)[:, : layout.width]
+    cells = layout.view_of(distance)
     beyond = MARGIN - HALO
     cells[:beyond] = cells[-beyond:] = cells[:, :beyond] = cells[:, -beyond:] = -1
     return distance, cells

@@ -27,43 +27,64 @@ class Wave:
     """
 
     def __init__(self, scenario: Scenario, moves: NDArray[np.uint16], distance_of_site: NDArray[np.int32]) -> None:
-        self.offset = scenario.area.layout.offset_of_direction
-        self.cost = scenario.area.tessellation.cost_of_direction
-        self.moves, self.distance_of_site = moves, distance_of_site
+        from trihex.fields.kernels import repair as kernels
+        from trihex.kernels.signatures import given
+
+        layout = scenario.area.layout
+        self.distance_of_site = distance_of_site
+        self.field = given(
+            kernels.WaveField,
+            distance=distance_of_site,
+            moves=moves,
+            offset=layout.offset_of_direction,
+            cost=scenario.area.tessellation.cost_of_direction,
+        )
+        self._kernels = kernels  # to import it anew for each wave took a tenth of the time of a small repair
+        self._back = layout.back_of_direction
         self._lists = np.empty((3, _LEAST), dtype=np.int32)
         self._log = np.empty(_LEAST, dtype=np.int32)
 
     def raised(self, doubtful: NDArray[np.int32]) -> NDArray[np.int32]:
         """Raise to "not reached" what has lost its support, beginning at `doubtful` sites; return the sites raised."""
-        from trihex.fields.kernels.repair import RAISE
-
         doubtful = doubtful[self.distance_of_site[doubtful] != NOT_REACHED]
-        return self._run(RAISE, doubtful)
+        return self._run(self._kernels.RAISE, doubtful)
 
     def lowered(self, sites: NDArray[np.int32]) -> NDArray[np.int32]:
         """Let what comes nearer by way of `sites` know; return all sites that have a new distance."""
-        from trihex.fields.kernels.repair import LOWER
+        return self._run(self._kernels.LOWER, sites)
 
-        return self._run(LOWER, sites)
+    def best_of(self, sites: NDArray[np.int32]) -> NDArray[np.int32]:
+        """Return the least distance that each of `sites` can have by one move to a neighbour as it is now."""
+        best = np.empty(sites.size, dtype=np.int32)
+        for start in range(0, sites.size, BUDGET):
+            part = slice(start, start + BUDGET)
+            self._kernels.find_best(sites[part], self.field, best[part])
+        return best
+
+    def renew_directions(self, sites: NDArray[np.int32], directions_of_site: NDArray[np.uint16]) -> None:
+        """Find the best directions of `sites` anew, in place, and of their neighbours those that lead to them."""
+        for start in range(0, sites.size, BUDGET):
+            self._kernels.renew_directions(sites[start : start + BUDGET], self.field, self._back, directions_of_site)
 
     def _run(self, wave: int, sites: NDArray[np.int32]) -> NDArray[np.int32]:
-        from trihex.fields.kernels import repair as kernels
-
+        kernels = self._kernels
         beginnings = self.distance_of_site[sites].astype(np.int64) << 32 | sites
         beginnings.sort()
+        beginnings.flags.writeable = False
         state = np.zeros(kernels.STATE_SIZE, dtype=np.int64)
-        while state[kernels.REASON] != kernels.DONE:
-            kernels.run_wave(
-                *(wave, state, beginnings, self._lists.reshape(-1), self._log),
-                *(self.moves, self.offset, self.cost, self.distance_of_site, BUDGET),
-            )
-            if state[kernels.REASON] == kernels.TOO_FAR:
+        front = kernels.WaveFront(state, beginnings, self._lists.reshape(-1), self._log)
+        while True:
+            kernels.run_wave(wave, front, self.field, BUDGET)
+            reason = state[kernels.REASON]
+            if reason == kernels.DONE:
+                return self._log[: state[kernels.LOGGED]].copy()
+            if reason == kernels.TOO_FAR:
                 raise ScenarioError(f"distances must stay below {kernels.FARTHEST}; a cell that can be reached is not")
-            if state[kernels.REASON] == kernels.LISTS_FULL:
+            if reason == kernels.LISTS_FULL:
                 self._lists = np.concatenate([self._lists, np.empty_like(self._lists)], axis=1)
-            if state[kernels.REASON] == kernels.LOG_FULL:
+            if reason == kernels.LOG_FULL:
                 self._log = np.concatenate([self._log, np.empty_like(self._log)])
-        return self._log[: state[kernels.LOGGED]].copy()
+            front = front._replace(lists=self._lists.reshape(-1), log=self._log)
 
 
 def renew_directions(
@@ -73,11 +94,5 @@ def renew_directions(
     distance_of_site: NDArray[np.int32],
     directions_of_site: NDArray[np.uint16],
 ) -> None:
-    """Find the best directions of `sites` anew, in place, and of their neighbours those that lead to them."""
-    from trihex.fields.kernels import repair as kernels
-
-    layout, cost = scenario.area.layout, scenario.area.tessellation.cost_of_direction
-    offset, back = layout.offset_of_direction, layout.back_of_direction
-    for start in range(0, sites.size, BUDGET):
-        part = sites[start : start + BUDGET]
-        kernels.renew_directions(part, moves, offset, back, cost, distance_of_site, directions_of_site)
+    """Find the best directions of `sites` anew, see `Wave.renew_directions`."""
+    Wave(scenario, moves, distance_of_site).renew_directions(sites, directions_of_site)

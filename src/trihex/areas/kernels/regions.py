@@ -1,15 +1,11 @@
 """Connected parts of an area."""
 
-from numba import njit, types
+from numba import types
 
-from trihex.kernels.signatures import IN_BOOL, OUT_I32, OUT_I64, TABLE_I32
+from trihex.kernels.signatures import IN_BOOL, OUT_I32, OUT_I64, TABLE_I32, kernel
 
 
-@njit(
-    types.void(IN_BOOL, TABLE_I32, types.int64, OUT_I64, OUT_I32, OUT_I32),
-    cache=True,
-    nogil=True,
-)
+@kernel(types.void(IN_BOOL, TABLE_I32, types.int64, OUT_I64, OUT_I32, OUT_I32))
 def label_regions(blocked, offset, budget, state, stack, region):
     """Fill `region` with the number of the region of each free site, counted from 0 by first site; -1 elsewhere.
 

@@ -1,19 +1,41 @@
 """Fields spread through one queue, first in, first out: faster than buckets where fronts are a few cells long."""
 
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
-from numba import njit, types
+from numba import types
 
-from trihex.fields.kernels.buckets import DONE, GO_ON, IN_U64, OUT_U64, try_moves
-from trihex.kernels.prefetch import prefetch
-from trihex.kernels.signatures import IN_I32, IN_U16, OUT_I32, OUT_I64
+from trihex.fields.kernels.front import (
+    DONE,
+    FRONT_CELLS,
+    FRONT_MOVES,
+    GO_ON,
+    LISTS_FULL,
+    OUT_U64,
+    costs_of,
+    ends_of,
+    expand,
+    prefetch_around,
+    try_moves,
+)
+from trihex.kernels.signatures import HELPER, OUT_I64, declared, kernel
 
 # What `state` holds: at which entry of the queue, where it ends, and why the kernel returned.
 AT, TAIL, REASON, STATE_SIZE = 0, 1, 2, 3
-QUEUE_FULL = 2
 LONGEST = 256  # entries that may wait; what ends up in a longer queue is better off in buckets
 QUEUE_SIZE = 2048  # so small that it stays in the cache
+_U = np.uint64
+
+
+class FrontQueue(NamedTuple):
+    """The entries that wait, and how far the spreading has come."""
+
+    state: OUT_I64  # see above
+    queue: OUT_U64
+
+
+_SIGNATURE = types.void(declared(FrontQueue), FRONT_MOVES, FRONT_CELLS, types.int64)
 
 
 @lru_cache
@@ -25,54 +47,60 @@ def make_spread(slots, is_masked):
     cannot foresee where each holds but a few cells. It expands up to `budget` entries, a few more if need be, and
     tells in ``state[REASON]`` whether it may `GO_ON`, is `DONE`, or has more than `LONGEST` entries waiting.
     """
-    groups, columns = len(slots), sum(slots)
-    end0, end1 = slots[0], sum(slots[:2])
+    end0, end1, columns = ends_of(slots)
 
-    @njit(
-        types.void(OUT_I64, OUT_U64, IN_U64, IN_U64, IN_I32, IN_U16, OUT_I32, types.int64, types.int64),
-        cache=True,
-        nogil=True,
-    )
-    def spread(state, queue, table, direction, cost, moves, distance, pitch, budget):
-        at, tail = np.uint64(state[AT]), np.uint64(state[TAIL])
-        last = np.uint64(len(queue) - columns)
-        rows = np.uint64(4 * pitch)
-        left = budget
-        bits = np.uint64(0)
-        reason = GO_ON
-        while reason == GO_ON and left > 0:
-            for i in range(tail - at):
-                queue[np.uint64(i)] = queue[at + np.uint64(i)]
-            tail -= at
-            at = np.uint64(0)
-            while at != tail and tail <= last:
-                entry = queue[at]
-                at += np.uint64(1)
-                site = entry & np.uint64(2**32 - 1)
-                row = entry >> np.uint64(32)
-                base = distance[site]
-                prefetch(distance, site + (table[row + np.uint64(columns)] << np.uint64(2)))
-                prefetch(distance, site + rows)
-                prefetch(distance, site - rows)
-                if is_masked:
-                    bits = np.uint64(moves[site])
-                value = np.int32(base + cost[0])
-                tail = try_moves(entry, 0, end0, value, table, direction, bits, is_masked, distance, queue, tail)
-                if groups > 1:
-                    value = np.int32(base + cost[1])
-                    tail = try_moves(entry, end0, end1, value, table, direction, bits, is_masked, distance, queue, tail)
-                if groups > 2:
-                    value = np.int32(base + cost[2])
-                    tail = try_moves(
-                        entry, end1, columns, value, table, direction, bits, is_masked, distance, queue, tail
-                    )
-            left -= np.int64(at)
-            if at == tail:
-                reason = DONE
-            elif tail - at > np.uint64(LONGEST):
-                reason = QUEUE_FULL
-        state[AT] = at
-        state[TAIL] = tail
-        state[REASON] = reason
+    @kernel(_SIGNATURE)
+    def spread(waiting, moves, cells, budget):
+        _spread(waiting, moves, cells, (end0, end1, columns, is_masked), budget)
 
     return spread
+
+
+@HELPER
+def _spread(waiting, moves, cells, shape, budget):
+    """Expand entries until the queue is empty or too long, or `budget` of them are."""
+    state, queue = waiting.state, waiting.queue
+    _, _, columns, is_masked = shape
+    at, tail = _U(state[AT]), _U(state[TAIL])
+    last = _U(len(queue) - columns)
+    costs = costs_of(moves, shape)
+    reason = GO_ON
+    while reason == GO_ON and budget > 0:
+        tail = _move_to_front(queue, at, tail)
+        at = _U(0)
+        while at != tail and tail <= last:
+            here = expand(queue[at], cells, is_masked)
+            at += _U(1)
+            prefetch_around(here, 2, 4, columns, moves, cells.distance)
+            tail = _try_all(here, costs, moves, cells.distance, shape, queue, tail)
+        budget -= np.int64(at)
+        if at == tail:
+            reason = DONE
+        elif tail - at > _U(LONGEST):
+            reason = LISTS_FULL
+    state[AT] = at
+    state[TAIL] = tail
+    state[REASON] = reason
+
+
+@HELPER
+def _move_to_front(queue, at, tail):
+    """Move the entries at..tail-1 to the beginning of the queue; return where they end."""
+    for i in range(tail - at):
+        queue[_U(i)] = queue[at + _U(i)]
+    return tail - at
+
+
+@HELPER
+def _try_all(here, costs, moves, distance, shape, queue, tail):
+    """Try the moves of all groups; return the tail."""
+    end0, end1, columns, is_masked = shape
+    value = np.int32(here.distance + costs[0])
+    tail = try_moves(here, value, 0, end0, moves, distance, is_masked, queue, tail)
+    if end0 < columns:
+        value = np.int32(here.distance + costs[1])
+        tail = try_moves(here, value, end0, end1, moves, distance, is_masked, queue, tail)
+    if end1 < columns:
+        value = np.int32(here.distance + costs[2])
+        tail = try_moves(here, value, end1, columns, moves, distance, is_masked, queue, tail)
+    return tail
