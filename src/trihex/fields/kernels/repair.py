@@ -10,6 +10,7 @@ when its turn comes; what to begin with comes in a sorted list, because it may l
 
 from typing import NamedTuple
 
+import numpy as np
 from numba import types
 
 from trihex.fields.kernels.front import DONE, FARTHEST, GO_ON, LISTS_FULL, TOO_FAR
@@ -33,6 +34,7 @@ LOG_FULL = 4  # why a wave may return, beside those of `front`
 # turns, the value at which the bucket being read ends, how much of the beginnings and of the log is used, and why the
 # kernel returned.
 LIST, AT, COUNT, NEAR_COUNT, FAR_COUNT, BUCKET_END, BEGUN, LOGGED, REASON, STATE_SIZE = range(10)
+_U = np.uint64  # unsigned indices are not looked at whether they count from the end
 _SITE = (1 << 32) - 1  # the low half of a beginning; the high half is its value
 
 
@@ -110,7 +112,7 @@ def _is_supported(site, value, field):
     """Tell whether a site is a destination or a neighbour is nearer by the cost of the move to it."""
     bits = field.moves[site]
     for k in range(len(field.cost)):
-        if bits >> k & 1 and field.distance[site + field.offset[site & 1, k]] == value - field.cost[k]:
+        if bits >> k & 1 and field.distance[_U(site + field.offset[site & 1, k])] == value - field.cost[k]:
             return True
     return value == 0
 
@@ -130,17 +132,17 @@ def _wake_neighbours(wave, site, value, front, field):
         target = site + field.offset[site & 1, k]
         there = value + field.cost[k]
         if wave == RAISE:
-            if distance[target] != there:
+            if distance[_U(target)] != there:
                 continue
-        elif distance[target] > there:
-            distance[target] = there
+        elif distance[_U(target)] > there:
+            distance[_U(target)] = there
         else:
             continue
         if there < far_from:
-            lists[near_tail] = target
+            lists[_U(near_tail)] = target
             near_tail += 1
         else:
-            lists[far_tail] = target
+            lists[_U(far_tail)] = target
             far_tail += 1
     state[NEAR_COUNT], state[FAR_COUNT] = near_tail - near, far_tail - far
 
