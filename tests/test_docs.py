@@ -17,6 +17,8 @@ from PIL import Image
 
 import trihex as th
 from trihex.cli import main
+from trihex.formats import WRITERS
+from trihex.planners import PLANNERS
 
 ROOT = Path(__file__).parent.parent
 DOCS = sorted((ROOT / "docs").rglob("*.md"))
@@ -235,3 +237,10 @@ def test_the_overview_of_the_api_is_that_of_the_docstrings():
     reference = runpy.run_path(str(ROOT / "docs" / "reference.py"))
     assert reference["PAGE"].read_text(encoding="utf-8") == reference["page"](), "run `python docs/reference.py`"
     assert set(reference["names_of_package"]()) == set(reference["TITLES"])
+
+
+def test_every_planner_and_every_format_that_is_written_has_its_row():
+    planners = (ROOT / "docs" / "planners.md").read_text()
+    assert [name for name in PLANNERS if f"| `{name}`" not in planners] == []
+    formats = (ROOT / "docs" / "formats.md").read_text()
+    assert [suffix for kind in WRITERS.values() for suffix in kind if suffix not in formats] == []

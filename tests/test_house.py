@@ -7,6 +7,8 @@ import sys
 from collections import Counter
 from pathlib import Path
 
+from trihex.planners import PLANNERS
+
 SRC = Path(__file__).parents[1] / "src/trihex"
 MOST_LINES, MOST_PARAMETERS, MOST_LINES_OF_FILE = 60, 10, 400
 
@@ -68,7 +70,7 @@ def test_nothing_is_done_by_assertions(tmp_path):
     """Under ``python -O`` assertions are left out; all planners, the judge and files must work just the same."""
     area = tmp_path / "area.txt"
     area.write_text("..........\n.BB.......\n....B.....\n....B....D\n..........\n")
-    for planner in ("greedy", "fcost", "astar", "optimal"):
+    for planner in PLANNERS:
         plan = tmp_path / f"{planner}.npz"
         words = [str(area), "--robots", "12", "--seed", "1", "--planner", planner, "--out", str(plan)]
         for command in (["plan", *words], ["check", str(plan)]):

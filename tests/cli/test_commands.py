@@ -174,7 +174,8 @@ def test_compare(folder):
     result = run("compare", "world.txt", "--planners", "greedy", "--out", "t.csv", "--picture", "bars.png")
     lines = result.stdout.splitlines()
     assert lines[0].split("  ")[:2] == ["tessellation", "planner"]
-    assert [line.split()[:2] for line in lines[2:]] == [[name, "greedy"] for name in TESSELLATIONS]
+    assert [line.split()[:2] for line in lines[2:-1]] == [[name, "greedy"] for name in TESSELLATIONS]
+    assert lines[-1] == "written: t.csv, bars.png"
     with open("t.csv", newline="") as file:
         rows = list(csv.DictReader(file))
     assert [row["tessellation"] for row in rows] == list(TESSELLATIONS)

@@ -9,7 +9,7 @@ import click
 
 from trihex.cli.group import DONE, NO
 from trihex.cli.options import PATH, area_options, complete, read_described, robot_options, rule_options, wrong_use
-from trihex.cli.outputs import check_outputs
+from trihex.cli.outputs import check_outputs, tell_written
 from trihex.cli.progress import bar
 from trihex.cli.types import Names
 from trihex.errors import AreaError, ScenarioError
@@ -67,7 +67,9 @@ def command(
         write_values(rows, out)
     if picture:
         _draw(rows, picture)
-    return _told(comparison, rows)
+    status = _told(comparison, rows)
+    tell_written(out, picture)
+    return status
 
 
 def _default_planners(scenarios: list[Scenario]) -> tuple[str, ...]:
@@ -83,10 +85,10 @@ def _scenarios(path: Path, names: tuple[str, ...], options: dict[str, Any]) -> l
     """
     from trihex.areas import TESSELLATIONS
     from trihex.files import read_bytes
-    from trihex.formats import format_of
+    from trihex.formats import FORMATS, format_of
     from trihex.studies import on_tessellations
 
-    if options["cell_size"] is None or format_of(read_bytes(path), path) in ("movingai", "letters"):
+    if options["cell_size"] is None or FORMATS[format_of(read_bytes(path), path)].is_of_letters:
         scenario = complete(read_described(path, options))
         own = () if scenario.area.frame is None else (scenario.area.tessellation.name,)
         return on_tessellations(scenario, names or own or TESSELLATIONS)

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import click
 
 from trihex.cli.options import PATH, area_options, complete, gathered, read_described, rule_options, wrong_use
-from trihex.cli.outputs import check_outputs
+from trihex.cli.outputs import check_outputs, tell_written
 from trihex.cli.progress import bar
 from trihex.cli.tiles import Tiling, make_tiles
 from trihex.cli.types import Whole
@@ -62,10 +62,13 @@ def command(area: Path, outputs: Outputs, tiling: Tiling, **options: Any) -> Non
     from trihex.fields import make_n_scheme
 
     _check_outputs(outputs)
-    scenario = complete(read_described(area, options), needs_robots=False)
+    drawn = ("picture",) if outputs.picture or outputs.directions_picture else ()
+    directed = ("d_scheme",) if outputs.directions or outputs.directions_picture else ("n_scheme",)
+    scenario = complete(read_described(area, options), *directed, *drawn, needs_robots=False)
     n_scheme = make_n_scheme(scenario)
     _write(n_scheme, outputs)
     _tell(n_scheme)
+    tell_written(outputs.out, outputs.directions, outputs.picture, outputs.directions_picture)
     if outputs.generations:
         click.echo(f"{_draw_generations(scenario, outputs.generations)} generations in {outputs.generations}")
 

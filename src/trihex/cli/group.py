@@ -15,8 +15,9 @@ from typing import Any, NoReturn
 
 import click
 
+from trihex.cli.progress import show_compiling
 from trihex.errors import TrihexError
-from trihex.kernels import loading
+from trihex.kernels import loading, preparing
 
 # Exit statuses. A command returns DONE (or None) or NO; the others are given here.
 DONE = 0
@@ -69,6 +70,7 @@ class Commands(click.Group):
         """Run the command that `args` name, and exit with its status."""
         status: int = FAULT
         loading.is_alone = True
+        preparing.watch = show_compiling
         if threading.current_thread() is threading.main_thread():
             # As for Ctrl-C, what is half-written is removed.
             signal.signal(signal.SIGTERM, lambda *_: sys.exit(TERMINATED))

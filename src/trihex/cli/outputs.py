@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
+import click
+
 from trihex.cli.options import wrong_use
 
 
@@ -22,3 +24,10 @@ def check_outputs(*outputs: tuple[Path | None, Iterable[str], str]) -> None:
         if path in seen:
             raise wrong_use(f"two outputs must not have one name, {path}")
         seen.add(path)
+
+
+def tell_written(*paths: Path | None) -> None:
+    """Name the files that were written; the standard output (-) is none."""
+    names = [str(path) for path in paths if path is not None and str(path) != "-"]
+    if names:
+        click.echo(f"written: {', '.join(names)}")

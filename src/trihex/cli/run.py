@@ -18,7 +18,7 @@ from trihex.cli.options import (
     rule_options,
     wrong_use,
 )
-from trihex.cli.outputs import check_outputs
+from trihex.cli.outputs import check_outputs, tell_written
 from trihex.cli.progress import bar
 from trihex.cli.types import Amount, Name, Seconds, Share, Whole
 
@@ -104,7 +104,10 @@ def command(beginning: Beginning, way: Way, outputs: Outputs, max_steps: int, **
             write_run(run, outputs.out, progress=progress)
     report = make_run_report(run, **told)
     _draw(run, outputs)
-    return _told(report, outputs.summary, is_over=is_over)
+    status = _told(report, outputs.summary, is_over=is_over)
+    if str(outputs.summary) != "-":
+        tell_written(*outputs)
+    return status
 
 
 def _check_outputs(outputs: Outputs) -> None:
@@ -142,7 +145,7 @@ def _trial_of(beginning: Beginning, way: Way, events: Any, options: dict[str, An
     if beginning.area is None:
         raise wrong_use("there is no AREA: name one, or add --plan PLAN or --resume RUN")
     draft = read_described(beginning.area, options)
-    scenario = complete(draft)
+    scenario = complete(draft, "trial", way.planner or draft.planner or "fcost", "bound")
     sensor = None if way.sense is None else Sensor(scenario.area.tessellation, way.sense, way.line_of_sight)
     return Trial(
         scenario,

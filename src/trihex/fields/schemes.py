@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from trihex.areas import Scenario, cells_from
 from trihex.errors import ScenarioError
 from trihex.fields.living import LivingField
-from trihex.fields.settling import settle
+from trihex.fields.settling import are_moves_masked, settle
 from trihex.kernels.codes import NOT_REACHED
 from trihex.record import Record, read_only
 
@@ -210,8 +210,7 @@ def _settle(
 ) -> int:
     """Settle `distance`, all of it or until the robots' are known, and return the horizon."""
     area, layout, tessellation = scenario.area, scenario.area.layout, scenario.area.tessellation
-    # Corner rules concern vertex moves alone; where there are none, all that a kernel need know is the barriers.
-    is_masked = scenario.corners != "allow" and tessellation.edge_count < tessellation.direction_count
+    is_masked = are_moves_masked(tessellation, scenario.corners)
     sites = layout.cell_to_site(scenario.destinations)
     waiting, done = layout.cell_to_site(scenario.robots), 0
 

@@ -16,6 +16,7 @@ from .recognise import (
 )
 from .registry import (
     FORMATS as FORMATS,
+    WRITERS as WRITERS,
 )
 from .report_json import (
     report_text as report_text,

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from trihex.bounds import LowerBound, distance_bound, make_lower_bound
 from trihex.fields import NScheme, make_n_scheme
 from trihex.judging.audit import Audit, audit_plan
+from trihex.kernels.preparing import prepare
 from trihex.plans import Plan
 from trihex.record import Record
 
@@ -165,6 +166,7 @@ def make_report(
     >>> report.total_time, report.lower_bound, round(report.gap, 3)
     (40, 30, 0.333)
     """
+    prepare(*("audit",) * (audit is None), *("bound",) * (lower_bound is None and not plan.optimal))
     n_scheme = make_n_scheme(plan.scenario) if n_scheme is None else n_scheme
     audit = audit_plan(plan) if audit is None else audit
     # Where the optimum is proven no bound is asked for, so a cheap one will do until that is known.

@@ -16,7 +16,7 @@ _FCOST = (*_GREEDY, *_REPAIR, "planners.fcost", "planners.slots", "planners.lane
 _ASTAR = (*_FIELD, "areas.moves", "planners.astar", "planners.reservations", "plans.replay")
 _OPTIMUM = ("fields.steps", "optimum.paths", "optimum.single", "optimum.levels", "optimum.earliest", "optimum.laid")
 _BOUND = ("areas.moves", "fields.steps", "bounds.cuts", "bounds.gates", "bounds.meetings", "bounds.serving")
-_TRIAL = (*_FCOST, "running.stepping", "running.lines", "running.sensing")
+_EXECUTION = (*_REPAIR, "running.stepping", "running.lines")
 
 #: What each use needs, by names of modules: "fields.front" is ``trihex.fields.kernels.front``. What is needed seldom is
 #: not here; it is compiled when it is imported.
@@ -29,7 +29,9 @@ KERNELS_OF: dict[str, tuple[str, ...]] = {
     "optimal": (*_FCOST, *_OPTIMUM),
     "audit": ("judging.audit", "plans.replay"),
     "bound": (*_BOUND, "bounds.steps", "bounds.units"),
-    "trial": _TRIAL,
+    "execution": _EXECUTION,
+    "trial": (*_EXECUTION, "running.sensing"),
+    "order": ("running.passing", "plans.replay"),
     "picture": ("pictures.raster", "plans.replay"),
     "table": ("formats.table_text",),
     "archive": ("formats.escape",),

@@ -26,16 +26,17 @@ Progress = Callable[[int, int], None]
 _LOG = logging.getLogger(__name__)
 _loaded: set[str | Kernels] = set()
 
+#: Called with (parts compiled, parts to compile) while anything is compiled, first with 0; the command line sets it.
+watch: Progress | None = None
 
-def prepare(*uses: str | Kernels, progress: Progress | None = None) -> None:
+
+def prepare(*uses: str | Kernels) -> None:
     """Compile what some uses need and the disk lacks, and load it, so that what follows is work alone.
 
     Parameters
     ----------
     *uses
-        Keys of `trihex.kernels.needs.KERNELS_OF`, or kernels themselves.
-    progress : callable, optional
-        Called with (parts compiled, parts to compile), at the beginning and after each; not if there is none.
+        Keys of `trihex.kernels.needs.KERNELS_OF` (one that is not there needs none), or kernels themselves.
     """
     if _loaded.issuperset(uses):
         return
@@ -45,7 +46,7 @@ def prepare(*uses: str | Kernels, progress: Progress | None = None) -> None:
         begin = perf_counter()
         _LOG.info("compiling kernels, once: %d parts", len(missing))
         missing.sort(key=_effort, reverse=True)
-        _compile(missing, progress or (lambda done, total: None))
+        _compile(missing, watch or (lambda done, total: None))
         _LOG.info("compiled in %.1f s", perf_counter() - begin)
     for kernels in new:
         kernels.load()

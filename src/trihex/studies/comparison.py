@@ -10,8 +10,9 @@ from typing import Any
 from trihex.areas import Scenario
 from trihex.bounds import LowerBound, make_lower_bound
 from trihex.errors import TooLargeError
-from trihex.fields import make_n_scheme
+from trihex.fields import field_kernels, make_n_scheme
 from trihex.judging import Report, audit_plan, make_report
+from trihex.kernels.preparing import prepare
 from trihex.planners import make_plan
 from trihex.record import Record
 
@@ -128,6 +129,8 @@ def make_comparison(
     """
     options = {name: dict(planners[name]) if isinstance(planners, Mapping) else {} for name in planners}
     scenarios = list(scenarios)
+    shapes = {field_kernels(scenario.area.tessellation, scenario.corners) for scenario in scenarios}
+    prepare(*options, "audit", "bound", *shapes)
     entries: list[Entry] = []
     for scenario in scenarios:
         entries += _entries(scenario, options, clock, progress, (len(entries), len(scenarios) * len(options)))
