@@ -52,7 +52,7 @@ def in_a_row(pictures: Iterable[th.Picture], gap: int = 4) -> Image.Image:
     return Image.fromarray(page).quantize(255, dither=Image.Dither.NONE)
 
 
-def picture_of_step(plan: th.Plan, step: int, breaking: Collection[int], words: str, width: int = 400) -> th.Picture:
+def picture_of_step(plan: th.Plan, step: int, breaking: Collection[int], words: str, width: int = 420) -> th.Picture:
     """Return a picture of the robots before a step and of their moves in it; those `breaking` a rule are red."""
     scenario, area = plan.scenario, plan.scenario.area
     scene = th.picture_of_area(scenario.with_robots([]), width=width).scene

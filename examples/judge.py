@@ -3,7 +3,7 @@
 import sys
 from pathlib import Path
 
-from examples.drawing import in_a_row, picture_of_step
+from examples.drawing import picture_of_step
 
 import trihex as th
 from trihex.kernels.codes import WAIT
@@ -26,10 +26,6 @@ print("clean" if audit.is_clean else f"{audit.conflict_count} conflicts")
 for conflict in audit.conflicts:
     print(f"{conflict.kind:9} {conflict}")
 
-pictures = []
-for step in (1, 4):
-    found = [conflict for conflict in audit.conflicts if conflict.step == step]
-    words = "; ".join(conflict.text for conflict in found)
-    breaking = {robot for conflict in found for robot in conflict.robots}
-    pictures.append(picture_of_step(audit.plan, step, breaking, words))
-in_a_row(pictures).save(folder / "judge.png")
+found = [conflict for conflict in audit.conflicts if conflict.step == 1]
+words = "; ".join(conflict.text for conflict in found)
+picture_of_step(audit.plan, 1, {robot for one in found for robot in one.robots}, words).save(folder / "judge.png")
