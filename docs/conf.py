@@ -107,7 +107,7 @@ def keep_colons(app, what, name, value, options, lines):
 
 
 def open_navigation(app, docname, source):
-    """Uncover what is for sphinx alone and stands in a comment, so that nobody sees it where Markdown is shown plainly."""
+    """Uncover what is for sphinx alone and stands in comments, so that plain Markdown does not show it."""
     source[0] = re.sub(r"<!-- navigation.*\n([\s\S]*?)^-->$", r"\1", source[0], flags=re.MULTILINE)
 
 
