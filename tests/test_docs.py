@@ -155,7 +155,7 @@ def test_a_page_with_a_mistake_fails(tmp_path, monkeypatch):
 @pytest.mark.parametrize("path", SCRIPTS, ids=name_of)
 def test_every_example_runs_and_leaves_its_picture(path, tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(sys, "argv", [path.name, str(tmp_path)])
-    runpy.run_path(str(path), run_name="__main__")
+    runpy.run_module(f"examples.{path.stem}", run_name="__main__")  # as the gallery says
     assert capsys.readouterr().out.strip()
     made = {file.name for file in tmp_path.iterdir()}
     assert made & {f"{path.stem}{ending}" for ending in (".png", ".gif", ".svg")}
@@ -231,6 +231,18 @@ def test_every_page_is_in_the_navigation_and_every_public_name_in_the_reference(
     packages = [package for found in directives for names in found for package in names.split()]
     homes = set(re.findall(r"^from \.(\w+) import", (ROOT / "src/trihex/__init__.pyi").read_text(), re.MULTILINE))
     assert sorted(packages) == sorted(homes), "name the package on a page of docs/api"
+
+
+def test_plain_markdown_shows_all_pages_and_no_navigation_of_sphinx():
+    """Code hosts show Markdown plainly: there a toctree is a box of words, and the only way on is a link."""
+    shown = {path: re.sub(r"<!--.*?-->", "", path.read_text(encoding="utf-8"), flags=re.DOTALL) for path in DOCS}
+    assert [name_of(path) for path, text in shown.items() if "{toctree}" in text] == []
+    index, api = ROOT / "docs" / "index.md", ROOT / "docs" / "api" / "index.md"
+    linked = {
+        (page.parent / target).resolve() for page in (index, api) for target in re.findall(r"\]\(([^)#]+)", shown[page])
+    }
+    missing = {name_of(path) for path in set(DOCS) - linked - {index}}
+    assert missing == set(), "link it in docs/index.md, under All pages"
 
 
 def test_the_overview_of_the_api_is_that_of_the_docstrings():

@@ -8,7 +8,7 @@ matplotlib.use("Agg")
 from matplotlib import pyplot
 from matplotlib.collections import EllipseCollection, LineCollection, PolyCollection
 
-from trihex.areas import TESSELLATIONS, Area, Scenario
+from trihex.areas import TESSELLATIONS, Area, Frame, Scenario
 from trihex.errors import MissingExtraError
 from trihex.fields import make_d_scheme, make_n_scheme
 from trihex.kernels.codes import WAIT
@@ -66,6 +66,21 @@ def test_schemes_and_plans_on_given_axes(name):
     assert axes[2].get_title() == "Plan (hand) of small"
     assert [text.get_text() for text in axes[2].get_legend().get_texts()] == ["barrier", "destination", "never arrives"]
     figure.canvas.draw()
+
+
+def test_places_in_the_world_have_a_scale_and_discs_lie_above_lines():
+    scenario = scenario_of("square")
+    area = Area("square", scenario.area.barriers, "hall", Frame(0.5))
+    ax = draw_plan(plan_from_lists(Scenario(area, scenario.destinations, scenario.robots), [[WAIT], []]))
+    line, words = (text for text in ax.texts if text.get_text() not in ("D", "a", "b"))
+    assert words.get_text() == "0.5 m"
+    assert (line.xy[0], line.get_position()[0]) == (1.0, 0.0)
+    assert line.xy[1] == line.get_position()[1] < 0
+    ax.figure.canvas.draw()
+    below = line.get_window_extent()
+    assert ax.get_legend().get_window_extent().y1 <= below.y0 + 2
+    orders = {type(one): one.get_zorder() for one in ax.collections}
+    assert orders[LineCollection] < orders[EllipseCollection] < min(text.get_zorder() for text in ax.texts)
 
 
 def test_large_areas_are_drawn_as_an_image():

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from trihex.areas import Area, Scenario
 from trihex.kernels.codes import NOT_REACHED
-from trihex.pictures.palette import DESTINATION, INK, PAGE, Colour, is_light
+from trihex.pictures.palette import DESTINATION, INK, PAGE, STRANDED, Colour, is_light
 from trihex.pictures.scene import Discs, Mark, Texts, centres_of, ink_on
 from trihex.pictures.sheet import width_of
 from trihex.plans import Plan
@@ -20,14 +20,20 @@ _LEAST_NUMBER = 7.0  # size of letters, in pixels
 LETTERS = "abcdefghijklmnopqrstuvwxyz"
 
 
-def destination_marks(scenario: Scenario, scale: float, *, letters: bool = True) -> list[Mark]:
-    """Return a D for each destination; where cells are too small, a disc in a white ring, so that it is found."""
+def destination_marks(
+    scenario: Scenario, scale: float, *, letters: bool = True, over_lines: bool = False
+) -> list[Mark]:
+    """Return a D for each destination; where cells are too small, a disc in a white ring, so that it is found.
+
+    `over_lines` puts the D onto such a disc as well, where lines would hide the cell.
+    """
     x, y = centres_of(scenario.area, scenario.destinations)
     if scale < LETTERS_FROM:
         return [Discs(x, y, 0.65, PAGE, 5.0), Discs(x, y, 0.5, DESTINATION, 3.5)]
     if not letters:
         return []
-    return [Texts(x, y, ("D",) * x.size, round(0.5 * scale), PAGE)]
+    discs: list[Mark] = [Discs(x, y, 0.47, PAGE), Discs(x, y, 0.4, DESTINATION)] if over_lines else []
+    return [*discs, Texts(x, y, ("D",) * x.size, round(0.5 * scale), PAGE)]
 
 
 def robot_marks(scenario: Scenario, robots: NDArray[np.int64], colour: Colour, scale: float) -> list[Mark]:
@@ -36,9 +42,25 @@ def robot_marks(scenario: Scenario, robots: NDArray[np.int64], colour: Colour, s
         return []
     x, y = centres_of(scenario.area, scenario.robots[robots])
     marks: list[Mark] = [Discs(x, y, ROBOT_RADIUS, colour, LEAST_ROBOT)]
-    if scale >= LETTERS_FROM and scenario.robot_count <= len(LETTERS):
+    if has_letters(scenario, scale):
         marks.append(Texts(x, y, tuple(LETTERS[r] for r in robots), round(0.46 * scale), ink_on(colour)))
     return marks
+
+
+def has_letters(scenario: Scenario, scale: float) -> bool:
+    """Tell whether robots are few and cells large enough for the letters of the paper."""
+    return scale >= LETTERS_FROM and scenario.robot_count <= len(LETTERS)
+
+
+def stranded_marks(scenario: Scenario, robots: NDArray[np.int64], scale: float) -> list[Mark]:
+    """Return a disc for each of `robots`, which never arrive, with its letter or, where that fits, its number."""
+    if not robots.size:
+        return []
+    size = 0.0 if has_letters(scenario, scale) else _size_of_number(int(robots.max(initial=0)), scale)
+    if size < _LEAST_NUMBER:
+        return robot_marks(scenario, robots, STRANDED, scale)
+    x, y = centres_of(scenario.area, scenario.robots[robots])
+    return [Discs(x, y, 0.48, STRANDED), Texts(x, y, tuple(map(str, robots.tolist())), round(size, 1), PAGE)]
 
 
 def leave_room(scenario: Scenario, scale: float) -> bool:
@@ -57,10 +79,7 @@ def number_marks(
 ) -> list[Mark]:
     """Return the numbers (height, width) of cells that are reached, if they fit into the cells."""
     is_shown = numbers != NOT_REACHED
-    most = int(numbers.max(initial=0, where=is_shown))
-    # At size 100 the widest number is so wide; the diagonal of its box must fit into the circle inside the cell.
-    wide = width_of("0" * len(str(most)), 100) / 100
-    size = min(0.36 * scale, 0.96 * scale / float(np.hypot(wide, 0.72)))
+    size = min(0.36 * scale, _size_of_number(int(numbers.max(initial=0, where=is_shown)), scale))
     if size < _LEAST_NUMBER:
         return []
     light = np.array([is_light(tuple(colour)) for colour in colours.tolist()])
@@ -70,6 +89,13 @@ def number_marks(
         words = tuple(map(str, numbers.reshape(-1)[cells].tolist()))
         marks.append(Texts(*centres_of(area, cells), words, round(size, 1), ink))
     return marks
+
+
+def _size_of_number(most: int, scale: float) -> float:
+    """Return the size of letters, half a cell at most, at which numbers up to `most` fit into the circle in a cell."""
+    # At size 100 the widest number is so wide; the diagonal of its box must fit.
+    wide = width_of("0" * len(str(most)), 100) / 100
+    return min(0.5 * scale, 0.96 * scale / float(np.hypot(wide, 0.72)))
 
 
 def _units(area: Area) -> NDArray[np.float64]:

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.files import new_file, suffix_of
+from trihex.pictures.legend import scale_bars
 from trihex.pictures.png import paint, write_png
 from trihex.pictures.scene import Scene
 from trihex.pictures.svg import svg_of
@@ -66,12 +67,14 @@ class Picture(Record):
 
 
 def titled(scene: Scene, title: str | None, what: str, more: str, legend: bool) -> Picture:
-    """Return the picture of `scene` with `title`, or with a title that says what it is, and with its legend or not."""
+    """Return the picture of `scene` with `title`, or with a title that says what it is, and with its legend or not.
+
+    Where the area lies in the world, the legend ends with the scale.
+    """
     area = scene.area
     if title is None:
         title = f"{what} of {area.name}" if area.name and what != "Area" else area.name or what
     edge = ", edge neighbours" if area.tessellation.neighbourhood == "edge" else ""
     subtitle = f"{area.tessellation.name}, {area.width} x {area.height} cells{edge}{more}"
-    return Picture(
-        replace(scene, title=title, subtitle=subtitle if title else "", legend=scene.legend if legend else ())
-    )
+    entries = (*scene.legend, *scale_bars(area, scene.scale)) if legend else ()
+    return Picture(replace(scene, title=title, subtitle=subtitle if title else "", legend=entries))

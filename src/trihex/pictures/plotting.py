@@ -20,7 +20,7 @@ from trihex.pictures.palette import SERIES, Colour
 from trihex.pictures.picture import Picture
 from trihex.pictures.plan_picture import picture_of_plan
 from trihex.pictures.png import disc_radius, paint
-from trihex.pictures.scene import Discs, Key, Lines, Scene, Texts
+from trihex.pictures.scene import Bar, Discs, Key, Lines, Scene, Texts
 from trihex.pictures.scheme_picture import picture_of_d_scheme, picture_of_n_scheme
 from trihex.plans import Plan
 
@@ -161,6 +161,7 @@ def _draw_mark(mark: Discs | Lines | Texts, scene: Scene, ax: Any) -> None:
         discs = collections.EllipseCollection(
             size, size, 0 * size, units="x", offsets=places, offset_transform=ax.transData, color=_rgb(mark.colour)
         )
+        discs.set_zorder(2.5)  # above lines (2), below texts (3), as in the other painters
         ax.add_collection(discs)
     else:
         size_in_points = mark.size / _PIXELS_PER_POINT
@@ -169,7 +170,7 @@ def _draw_mark(mark: Discs | Lines | Texts, scene: Scene, ax: Any) -> None:
 
 
 def _draw_legend(scene: Scene, ax: Any) -> None:
-    handles = []
+    handles, below = [], 0.5  # in sizes of the font, from the axes down to the legend
     for entry in scene.legend:
         if isinstance(entry, Key):
             marker = {"cell": "s", "line": "_"}.get(entry.kind, "o")
@@ -178,6 +179,10 @@ def _draw_legend(scene: Scene, ax: Any) -> None:
                 _matplotlib("lines").Line2D([], [], color=colour, marker=marker, linestyle="", label=entry.words)
             )
             continue
+        if isinstance(entry, Bar):
+            _draw_bar(entry, ax)
+            below = 2.5
+            continue
         colours = _matplotlib("colors")
         scale = colours.LogNorm if "(log)" in entry.words else colours.Normalize
         shades = colours.ListedColormap([_rgb(colour) for colour in entry.colours])
@@ -185,4 +190,14 @@ def _draw_legend(scene: Scene, ax: Any) -> None:
         shown = _matplotlib("cm").ScalarMappable(norm, shades)
         ax.figure.colorbar(shown, ax=ax, label=entry.words, shrink=0.6)
     if handles:
-        ax.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0.0), ncols=4, frameon=False, fontsize=8)
+        place: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "borderaxespad": below}
+        ax.legend(handles=handles, ncols=4, frameon=False, fontsize=8, **place)
+
+
+def _draw_bar(bar: Bar, ax: Any) -> None:
+    """Draw the scale below the axes, on the left."""
+    place = _matplotlib("transforms").blended_transform_factory(ax.transData, ax.transAxes)
+    style = {"arrowstyle": "|-|, widthA=0.3, widthB=0.3", "shrinkA": 0, "shrinkB": 0}
+    end, height = (bar.length, -0.03), {"xycoords": place, "annotation_clip": False}
+    ax.annotate("", end, (0.0, -0.03), textcoords=place, arrowprops=style, **height)
+    ax.annotate(bar.words, end, (4, 0), textcoords="offset points", fontsize=8, va="center", **height)
