@@ -25,7 +25,7 @@ SUMMARY_KEYS = [
     *("area", "tessellation", "neighbourhood", "costs", "corners", "crossing", "destination_capacity", "cells"),
     *("free_cells", "robots", "arrived", "unreachable", "seed", "planner", "waiting_cost", "steps", "total_time"),
     *("total_distance", "total_waiting", "longest_time", "lower_bound", "lower_bound_name", "gap", "optimal"),
-    *("conflicts", "seconds"),
+    *("conflicts", "corner_moves", "squeezing_moves", "seconds"),
 ]
 
 
@@ -51,6 +51,21 @@ def test_plan_prints_a_report(folder):
     assert lines[0] == "world: 7 x 3 cells, 19 free; hexagonal, full neighbourhood, costs paper"
     assert lines[1].startswith("greedy: 3 of 3 robots arrive, the last in step ")
     assert lines[3] == "safe: no conflicts"
+
+
+def test_moves_past_the_corners_of_barriers_are_told(folder):
+    (folder / "leak.txt").write_text("D.B.\n.B..\nB..a\n")
+    line = "1 move passes the corner of a barrier, 1 of them between two; --corners no-cut forbids it"
+    report = run("plan", "leak.txt", "--tessellation", "square", "--out", "leak.npz").stdout.splitlines()
+    assert report[3:5] == ["safe: no conflicts", line]
+    assert run("check", "leak.npz").stdout.splitlines()[1:] == [line]
+    (folder / "open.txt").write_text("....\na..D\n")
+    border = run("plan", "open.txt", "--tessellation", "triangular").stdout.splitlines()[4]
+    assert border.endswith(" the corner of the border; --corners no-cut forbids it")
+    for options in (["--corners", "no-cut"], ["--neighbourhood", "edge"]):
+        told = run("plan", "open.txt", "--tessellation", "triangular", *options).stdout
+        assert "corner" not in told
+    assert "corner" not in run("plan", "leak.txt").stdout  # hexagons have no such moves
 
 
 def test_fcost_plans_unless_another_is_named(folder):
