@@ -181,6 +181,13 @@ def test_field(folder):
     assert np.array_equal(np.load("d.npy"), th.make_d_scheme(n_scheme).directions)
     names = sorted(path.name for path in (folder / "steps").iterdir())
     assert names == [f"generation-{i:04d}.png" for i in range(len(list(th.distance_generations(scenario))))]
+    far = n_scheme.farthest
+    assert far == n_scheme.distance[~scenario.area.barriers].max()
+    for number, states in enumerate(th.distance_generations(scenario)):
+        title = f"world, generation {number}"
+        wanted = th.picture_of_generation(scenario, states, number, far=far, title=title).to_array()
+        with Image.open(folder / "steps" / names[number]) as picture:
+            assert np.array_equal(np.asarray(picture.convert("RGB")), wanted)
     run("field", "world.txt", "--picture", "n.svg", "--directions-picture", "d.png")
     assert (folder / "n.svg").read_text().startswith("<svg")
 
