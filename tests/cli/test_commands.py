@@ -207,6 +207,17 @@ def test_compare(folder):
     assert (folder / "bars.png").read_bytes().startswith(b"\x89PNG")
 
 
+def test_compare_takes_planners_with_options(folder):
+    lines = run("compare", "world.txt", "--planners", "fcost:rule=paper, greedy", "--tessellation", "square").stdout
+    assert [line.split()[1] for line in lines.splitlines()[2:]] == ["fcost:rule=paper", "greedy"]
+    for wrong, message in (
+        ("fcost:rulle=paper", "--planners: option of planner 'fcost' must be one of rule, not 'rulle'"),
+        ("fcots:rule=paper", "--planners must be one of greedy, fcost, astar, optimal, not 'fcots'"),
+        ("fcost:rule=papr", "rule must be one of best, paper, queue, aside, lanes, not 'papr'; did you mean 'paper'?"),
+    ):
+        assert message in run("compare", "world.txt", "--planners", wrong, status=2).stderr
+
+
 def test_compare_on_named_tessellations(folder):
     for option in (["--tessellations", "square"], ["--tessellation", "square"]):
         lines = run("compare", "world.txt", "--planners", "greedy", *option).stdout.splitlines()
