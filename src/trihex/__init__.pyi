@@ -113,6 +113,7 @@ from .studies import (
     Comparison as Comparison,
     Study as Study,
     make_comparison as make_comparison,
+    read_results as read_results,
     read_study as read_study,
     run_study as run_study,
     write_study as write_study,

@@ -95,10 +95,10 @@ def test_planners_are_told_apart_by_their_options():
     [
         ("fcost:rulle=paper", "option of planner 'fcost' must be one of rule, not 'rulle'; did you mean 'rule'?"),
         ("fcost:rule", "planner 'fcost:rule' must be NAME:OPTION=VALUE, not 'rule'"),
-        ("fcost:rule=best:rule=paper", "planner 'fcost:rule=best:rule=paper' must name each option once, not 'rule' twice"),
+        ("fcost:rule=a:rule=b", "planner 'fcost:rule=a:rule=b' must name each option once, not 'rule' twice"),
         ("fcost:", "planner 'fcost:' must be NAME:OPTION=VALUE, not ''"),
         ("greedy:rule=paper", "planner 'greedy' has no options, so not 'rule'"),
-        ("fcots:rule=paper", "planner must be one of greedy, fcost, astar, optimal, not 'fcots'; did you mean 'fcost'?"),
+        ("fcots:rule=", "planner must be one of greedy, fcost, astar, optimal, not 'fcots'; did you mean 'fcost'?"),
         (3, "planner must be a name, such as 'fcost' or 'fcost:rule=paper', not 3"),
     ],
 )
@@ -110,7 +110,7 @@ def test_mistakes_in_a_planner_with_options_are_told(planner, message):
 
 def test_values_of_options_are_refused_before_anyone_plans():
     told = []
-    with pytest.raises(th.PlanError, match="rule must be one of .*, not 'papr'"):
+    with pytest.raises(th.PlanError, match=r"rule must be one of .*, not 'papr'"):
         th.make_comparison([SCENARIO], ["greedy", "fcost:rule=papr"], progress=lambda *done: told.append(done))
     assert told == []
 

@@ -105,7 +105,8 @@ def test_planners_may_bring_their_options_in_their_names(tmp_path):
     text = """
 areas = {generator = "random", size = [4, 4]}
 robots = 1
-planners = ["fcost:rule=paper", {name = ["fcost:rule=queue", "greedy"]}, {name = "optimal", options = {objective = "steps"}}]
+planners = ["fcost:rule=paper", {name = ["fcost:rule=queue", "greedy"]},
+  {name = "optimal", options = {objective = "steps"}}]
 """
     study = th.read_study(written(tmp_path, text))
     assert [(case["planner"]["name"], case["planner"]["options"]) for case in study.trials] == [
@@ -114,9 +115,10 @@ planners = ["fcost:rule=paper", {name = ["fcost:rule=queue", "greedy"]}, {name =
         ("greedy", {}),
         ("optimal", {"objective": "steps"}),
     ]
-    (row,) = th.run_study([{"area": {"generator": "random", "size": [4, 4]}, "robots": 1, "planner": "fcost:rule=paper"}])
+    area = {"generator": "random", "size": [4, 4]}
+    (row,) = th.run_study([{"area": area, "robots": 1, "planner": "fcost:rule=paper"}])
     assert (row["planner"], row["planner_options"]) == ("fcost", '{"rule":"paper"}')
-    with pytest.raises(th.FormatError, match="planners.0: option of planner 'fcost' must be one of rule, not 'rulle'"):
+    with pytest.raises(th.FormatError, match=r"planners.0: option of planner 'fcost' must be one of rule, not 'rulle'"):
         th.read_study(written(tmp_path, text.replace("rule=paper", "rulle=paper")))
 
 
