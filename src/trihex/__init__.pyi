@@ -74,6 +74,8 @@ from .pictures import (
     draw_arrivals as draw_arrivals,
     draw_comparison as draw_comparison,
     draw_d_scheme as draw_d_scheme,
+    draw_generation as draw_generation,
+    draw_generations as draw_generations,
     draw_n_scheme as draw_n_scheme,
     draw_plan as draw_plan,
     picture_of_area as picture_of_area,

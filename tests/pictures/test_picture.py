@@ -1,9 +1,11 @@
+import itertools
 import re
 import xml.etree.ElementTree as ET
 from io import BytesIO
 
 import numpy as np
 import pytest
+import shapely
 from PIL import Image
 
 import trihex as th
@@ -176,6 +178,23 @@ def test_d_scheme_has_an_arrow_along_each_best_move(name):
         (x, y, k) for y, x in np.ndindex(bits.shape) for k in range(12) if bits[y, x] >> k & 1
     }  # fmt: skip
     assert len(lines[0].paths) == len(ends)
+
+
+@pytest.mark.parametrize("name", TESSELLATIONS)
+def test_arrows_of_a_cell_are_apart(name):
+    """On triangles they may be but 30 degrees apart; neither heads nor shafts may touch."""
+    scenario = Scenario(Area(name, np.zeros((9, 15))), [(7, 4)])
+    picture = picture_of_d_scheme(make_d_scheme(make_n_scheme(scenario)))
+    (lines,) = [mark for mark in picture.scene.marks if isinstance(mark, Lines)]
+    arrows = {}
+    for arrow in lines.paths:
+        arrows.setdefault(tuple(map(int, scenario.area.tessellation.cell_at_point(*arrow[0]))), []).append(arrow)
+    assert max(map(len, arrows.values())) > 1
+    shapes = {cell: [shapely.LineString(arrow) for arrow in own] for cell, own in arrows.items()}
+    width = lines.width / picture.scene.scale
+    for own in shapes.values():
+        for one, other in itertools.combinations(own, 2):
+            assert one.distance(other) > width
 
 
 @pytest.mark.parametrize("name", TESSELLATIONS)

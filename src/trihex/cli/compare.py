@@ -107,8 +107,7 @@ def _draw(rows: list[dict[str, Any]], path: Path) -> None:
     from trihex.files import new_file
     from trihex.pictures import draw_comparison
 
-    drawn = [{**row, "optimal": row["is_proven"] and row["gap"] == 0} for row in rows if row["gap"] is not None]
-    ax = draw_comparison(drawn)
+    ax = draw_comparison(rows)
     with new_file(path) as part:
         ax.figure.savefig(part)
 
