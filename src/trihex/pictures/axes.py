@@ -115,17 +115,22 @@ def draw_legend(keys: Sequence[Key | Ramp], ax: Any) -> None:
     if has_ramps and not is_alone:
         room *= 0.85  # the colour bar takes its share when the figure is laid out
     legend = fit_legend(ax, handles, room, loc="upper center", bbox_to_anchor=(0.5, 0.0), frameon=False)
-    keep_room(ax, legend.get_window_extent().height, is_below=True)
+    keep_room(ax, 72 * legend.get_window_extent().height / ax.figure.dpi + _PAD, is_below=True)
 
 
-def keep_room(ax: Any, pixels: float, is_below: bool) -> None:
+def keep_room(ax: Any, points: float, *, is_below: bool) -> None:
     """Make the axes lower, for a legend below or above, unless the figure lays out its axes by itself."""
     if ax.figure.get_layout_engine() is not None:
         return
     place = ax.get_position(original=True)
-    taken = min((pixels + _PAD) / ax.figure.bbox.height, 0.6 * place.height)
+    taken = min(points * ax.figure.dpi / 72 / ax.figure.bbox.height, 0.6 * place.height)
     ax.set_position([place.x0, place.y0 + taken * is_below, place.width, place.height - taken])
     ax.set_in_layout(True)
+    left = max(0.0, 1 - ax.get_tightbbox().x0) / ax.figure.bbox.width  # of words left of the figure
+    if left:
+        low, high = ax.get_position(original=True).intervaly
+        ax.set_position([place.x0 + left, low, place.width - left, high - low])
+        ax.set_in_layout(True)
 
 
 def fit_legend(ax: Any, handles: Sequence[Any], room: float, **options: Any) -> Any:

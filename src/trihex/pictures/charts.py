@@ -22,6 +22,7 @@ _RULES = ("neighbourhood", "costs", "waiting_cost", "crossing", "corners", "dest
 _STUDENT = {1: 12.71, 2: 4.303, 3: 3.182, 4: 2.776, 5: 2.571, 6: 2.447, 7: 2.365, 8: 2.306, 9: 2.262, 14: 2.145}
 _STUDENT |= {19: 2.093, 29: 2.045, 59: 2.001, 119: 1.980}
 _LABEL_POINTS = 150.0  # how long the label of an axis is in one line
+_PAD = 12.0  # points round the legend
 
 Row = Mapping[str, Any]
 
@@ -175,7 +176,7 @@ def _draw_legend(ax: Any, handles: list[Any], title: str | None) -> None:
     """Draw the legend above the axes, below the title."""
     room = ax.get_window_extent().width
     legend = fit_legend(ax, handles, room, loc="lower center", bbox_to_anchor=(0.5, 1.0), frameon=False)
-    height = legend.get_window_extent().height
+    height = 72 * legend.get_window_extent().height / ax.figure.dpi + _PAD
     if title:
-        ax.set_title(title, pad=72 * height / ax.figure.dpi + 12)
-    keep_room(ax, height, is_below=False)
+        ax.set_title(title, pad=height)
+    keep_room(ax, height + _PAD * bool(title), is_below=False)

@@ -8,7 +8,9 @@ from dataclasses import dataclass, replace
 from time import perf_counter
 from typing import Any
 
-from trihex.areas import Area, Scenario
+import numpy as np
+
+from trihex.areas import Area, Scenario, Tessellation
 from trihex.bounds import LowerBound, make_lower_bound
 from trihex.errors import TooLargeError
 from trihex.fields import make_n_scheme
@@ -152,9 +154,9 @@ def on_tessellations(scenario: Scenario, names: Iterable[str]) -> list[Scenario]
 
 def _try(planner: str, options: dict[str, Any]) -> None:
     """Raise PlanError now, not after other planners have worked, if an option has a value that it cannot have."""
-    area = Area("hexagonal", [[0, 0]])
+    area = Area(Tessellation("hexagonal"), np.zeros((1, 2), dtype=bool))
     with suppress(TooLargeError):
-        make_plan(Scenario(area, [(1, 0)], [(0, 0)]), planner, **options)
+        make_plan(Scenario(area, np.array([0]), np.array([1])), planner, **options)
 
 
 def _entries(
