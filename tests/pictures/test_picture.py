@@ -321,7 +321,7 @@ def test_few_colours_make_a_palette_image(tmp_path):
 
 def test_unknown_suffix_names_the_choices_and_leaves_nothing(tmp_path):
     picture = picture_of_area(small_scenario("square"))
-    with pytest.raises(FormatError, match=r"must be one of \.png, \.svg, not '\.pgn'; did you mean '\.png'"):
+    with pytest.raises(FormatError, match=r"must be one of \.png, \.svg, \.pdf, not '\.pgn'; did you mean '\.png'"):
         picture.save(tmp_path / "small.pgn")
     with pytest.raises(FileNotFoundError):
         picture.save(tmp_path / "no" / "small.png")

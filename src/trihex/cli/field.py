@@ -35,8 +35,8 @@ class Outputs(NamedTuple):
     metavar="FILE",
     help="The D-scheme as .npy, uint16 [y, x].",
 )
-@click.option("--picture", type=PATH, metavar="FILE", help="The N-scheme drawn, as .png or .svg.")
-@click.option("--directions-picture", type=PATH, metavar="FILE", help="The D-scheme drawn, as .png or .svg.")
+@click.option("--picture", type=PATH, metavar="FILE", help="The N-scheme drawn, as .png, .svg or .pdf.")
+@click.option("--directions-picture", type=PATH, metavar="FILE", help="The D-scheme drawn, as .png, .svg or .pdf.")
 @click.option("--generations", type=PATH, metavar="DIR", help="A picture of every generation of the automaton.")
 @click.option("--tile", type=Whole(2), help="Areas in .npy or .zarr: cells along a tile, even. [default: 2048]")
 @click.option("--jobs", type=Whole(1), help="Areas in .npy or .zarr: processes that settle tiles. [default: 1]")

@@ -1,6 +1,9 @@
 from .area_picture import (
     picture_of_area as picture_of_area,
 )
+from .axes import (
+    check_matplotlib as check_matplotlib,
+)
 from .charts import (
     draw_arrivals as draw_arrivals,
     draw_comparison as draw_comparison,

@@ -20,12 +20,17 @@ PIXELS_PER_POINT = 2.0
 _PAD = 6.0  # between legend and axes, in points
 
 
-def matplotlib(module: str) -> Any:
-    """Return a module of matplotlib, or raise MissingExtraError."""
+def matplotlib(module: str, what: str = "drawing on axes") -> Any:
+    """Return a module of matplotlib, or raise MissingExtraError that says what needs it."""
     try:
         return import_module(f"matplotlib.{module}")
     except ImportError as error:
-        raise MissingExtraError("drawing on axes needs matplotlib: pip install 'trihex[plot]'") from error
+        raise MissingExtraError(f"{what} needs matplotlib: pip install 'trihex[plot]'") from error
+
+
+def check_matplotlib(what: str) -> None:
+    """Raise MissingExtraError, which says what needs it, unless matplotlib is there."""
+    matplotlib("figure", what)
 
 
 def new_axes(ax: Any, size: tuple[float, float] = (6.4, 4.8)) -> Any:
@@ -43,7 +48,7 @@ def series(number: int) -> tuple[float, ...]:
     return rgb(SERIES[number % len(SERIES)])
 
 
-def draw_scene(scene: Scene, ax: Any) -> None:
+def draw_scene(scene: Scene, ax: Any, pixels_per_point: float = PIXELS_PER_POINT) -> None:
     """Draw cells and marks of a scene, and set the limits of the axes."""
     across, down = scene.area.tessellation.extent(scene.area.height, scene.area.width)
     if scene.area.cell_count > MOST_POLYGONS:
@@ -51,7 +56,7 @@ def draw_scene(scene: Scene, ax: Any) -> None:
     else:
         _draw_cells(scene, ax)
         for mark in scene.marks:
-            _draw_mark(mark, scene, ax)
+            _draw_mark(mark, scene, ax, pixels_per_point)
     ax.set(xlim=(0, across), ylim=(down, 0), aspect="equal")
     ax.set_axis_off()
 
@@ -65,20 +70,19 @@ def _draw_cells(scene: Scene, ax: Any) -> None:
     ax.add_collection(cells)
 
 
-def _draw_mark(mark: Discs | Lines | Texts, scene: Scene, ax: Any) -> None:
+def _draw_mark(mark: Discs | Lines | Texts, scene: Scene, ax: Any, pixels_per_point: float) -> None:
     collections = matplotlib("collections")
     if isinstance(mark, Lines):
-        width = mark.width / PIXELS_PER_POINT
-        ax.add_collection(collections.LineCollection(mark.paths, colors=[rgb(mark.colour)], linewidths=width))
+        width = mark.width / pixels_per_point
+        ax.add_collection(collections.LineCollection(mark.paths, colors=[rgb(mark.colour)], linewidths=width, zorder=2))
     elif isinstance(mark, Discs):
         size = np.full(mark.x.size, 2 * disc_radius(mark, scene) / scene.scale)
         places = np.stack([mark.x, mark.y], axis=-1)
-        discs = collections.EllipseCollection(
-            size, size, 0 * size, units="x", offsets=places, offset_transform=ax.transData, color=rgb(mark.colour)
-        )
+        place = {"offsets": places, "offset_transform": ax.transData, "units": "x", "zorder": 2.5}
+        discs = collections.EllipseCollection(size, size, 0 * size, color=rgb(mark.colour), **place)
         ax.add_collection(discs)
     else:
-        size_in_points = mark.size / PIXELS_PER_POINT
+        size_in_points = mark.size / pixels_per_point
         for x, y, word in zip(mark.x, mark.y, mark.words, strict=True):
             ax.text(x, y, word, size=size_in_points, color=rgb(mark.colour), ha="center", va="center_baseline")
 
