@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from trihex.plans import Plan, count_marked_moves
 
 
@@ -28,6 +26,4 @@ def count_corner_moves(plan: Plan, corners: str = "no-cut") -> int:
     tessellation = plan.scenario.area.tessellation
     if tessellation.edge_count == tessellation.direction_count:  # no move passes a vertex
         return 0
-    lone = plan.scenario.with_robots(())
-    closed = replace(lone, corners="allow").moves & ~replace(lone, corners=corners).moves
-    return count_marked_moves(plan, closed)
+    return count_marked_moves(plan, plan.scenario.moves_closed_by(corners))

@@ -10,7 +10,6 @@ from trihex.kernels.codes import NOT_REACHED
 from trihex.pictures.palette import DESTINATION, INK, PAGE, Colour, is_light
 from trihex.pictures.scene import Discs, Mark, Texts, centres_of, ink_on
 from trihex.pictures.sheet import width_of
-from trihex.plans import Plan
 
 # In pixels per edge step, the diameter of the circle inside a cell.
 LETTERS_FROM = 20.0
@@ -119,20 +118,6 @@ def compass_of(area: Area, directions: NDArray[np.uint16], count: int) -> NDArra
     index = (np.round(turn * count).astype(np.int64) % count).astype(np.uint8)
     y, x = np.ogrid[: area.height, : area.width]
     return np.asarray(index[area.tessellation.orientation_of_cell(x, y), directions])
-
-
-def robot_paths(plan: Plan) -> tuple[NDArray[np.float64], ...]:
-    """Return the way of each robot, shape (points, 2), each a little aside, so that paths in one cell do not hide."""
-    area = plan.scenario.area
-    cells = np.stack(list(plan.cells_by_step()))
-    paths = []
-    for robot, end in enumerate(plan.last_cell_of_robot.tolist()):
-        own = np.append(cells[:, robot][cells[:, robot] >= 0], end)
-        own = own[np.append(True, own[1:] != own[:-1])]
-        turn = 2.399963 * robot  # the golden angle: no two robots of a few are aside alike
-        aside = 0.13 * np.array([np.cos(turn), np.sin(turn)]) if plan.scenario.robot_count > 1 else 0.0
-        paths.append(np.stack(centres_of(area, own), axis=-1) + aside)
-    return tuple(paths)
 
 
 def base_cells(record: Area | Scenario, free: int, barrier: int, destination: int) -> NDArray[np.uint8]:
