@@ -8,6 +8,7 @@ from hypothesis import given, settings
 import trihex as th
 from tests.strategies import random_scenario, scenarios
 from trihex.kernels.codes import JUMP, WAIT
+from trihex.pictures.ways import bends_of
 from trihex.planners import make_plan
 from trihex.plans import Plan, make_playback, plan_from_lists
 from trihex.viewer.bundle import encode
@@ -20,7 +21,8 @@ PLAY = """async ([text, steps]) => {
   const playback = new Playback(bundle, documentOf(bundle.header.document, bundle.arrays));
   return steps.map((step) => {
     playback.seek(step);
-    return [[...playback.x0], [...playback.y0], [...playback.x1], [...playback.y1], [...playback.state]];
+    return [[...playback.x0], [...playback.y0], [...playback.x1], [...playback.y1], [...playback.state],
+      [...playback.bx], [...playback.by]];
   });
 }"""
 
@@ -73,12 +75,13 @@ def test_the_page_shows_robots_where_the_plan_has_them(open_viewer):
     jumper = th.Scenario(th.Area("hexagonal", np.zeros((4, 9))), [(8, 3)], [(0, 0), (4, 0)])
     plans = [Plan(jumper, [3, WAIT, JUMP, 1, JUMP], [0, 4, 5], jumps=[[2, 34], [4, 35]])]
     plans += [make_plan(random_scenario(seed, sides=(6, 14)), "greedy") for seed in range(12)]
+    bent = 0
     for plan in plans:
         area, cells = plan.scenario.area, list(plan.cells_by_step())
         # To and fro, past the steps that the page keeps.
         steps = [*range(plan.steps + 1), *rng.integers(0, plan.steps + 1, 12).tolist()]
         text = base64.b64encode(encode(*Desk().show(plan))).decode()
-        for step, (x0, y0, x1, y1, state) in zip(steps, shown.page.evaluate(PLAY, [text, steps]), strict=True):
+        for step, (x0, y0, x1, y1, state, bx, by) in zip(steps, shown.page.evaluate(PLAY, [text, steps]), strict=True):
             here, there = cells[step], cells[min(step + 1, plan.steps)]
             np.testing.assert_array_equal(np.array(state) == HIDDEN, here < 0)
             for cell, x, y in ((here, x0, y0), (there, x1, y1)):
@@ -86,12 +89,16 @@ def test_the_page_shows_robots_where_the_plan_has_them(open_viewer):
                 px, py = area.tessellation.centre_of_cell(*area.cell_to_xy(cell[seen]))
                 np.testing.assert_allclose(np.array(x)[seen], px, rtol=1e-6)
                 np.testing.assert_allclose(np.array(y)[seen], py, rtol=1e-6)
+            cell, later = (np.where(own < 0, plan.last_cell_of_robot, own) for own in (here, there))
+            np.testing.assert_allclose(np.stack([bx, by], axis=-1), bends_of(area, cell, later), atol=1e-5)
+            bent += np.count_nonzero(np.hypot(bx, by))
             if step < plan.steps:
                 sets = plan.sets_at(step + 1)
                 np.testing.assert_array_equal(np.flatnonzero(np.isin(state, [MOVING, FINAL])), sets.filled)
                 np.testing.assert_array_equal(np.flatnonzero(np.isin(state, [WAITING, STRANDED])), sets.waiting)
                 is_last = plan.arrived & (np.diff(plan.first_action) == step + 1)
                 np.testing.assert_array_equal(np.array(state) == FINAL, is_last)
+    assert bent > 20
     assert shown.faults == []
 
 
