@@ -106,3 +106,33 @@ def test_plan_from_lists_of_no_robots_plays():
     scenario = th.Scenario(th.Area("square", [[0, 0]]), [(0, 0)])
     playback = make_playback(plan_from_lists(scenario, []), th.make_n_scheme(scenario))
     assert playback.arrived.tolist() == playback.spent.tolist() == [0]
+
+
+RUNNERS = """async ([width, height, frames]) => {
+  const { Runners } = await import("./viewer.js");
+  const doc = { header: { tessellation: "triangular" }, width, height }, runners = new Runners();
+  return frames.map(([cells, steps]) => {
+    runners.move(doc, Int32Array.from(cells), new Uint8Array(cells.length), steps);
+    return [[...runners.bx], [...runners.by]];
+  });
+}"""
+
+
+def test_robots_that_run_live_bend_too(open_viewer):
+    shown = open_viewer(th.Scenario(th.Area("square", np.zeros((2, 2))), [(0, 0)]))
+    area = th.Area("triangular", np.zeros((5, 8)))
+    rng, steps = np.random.default_rng(4), area.tessellation.step_of_direction
+    cells = area.xy_to_cell([3, 4, 4, 3], [1, 1, 2, 3])
+    sides = area.tessellation.orientation_of_cell(*area.cell_to_xy(cells))
+    for _ in range(12):
+        dx, dy = steps[sides, rng.integers(0, 12, 4)].T
+        x, y = area.cell_to_xy(cells)
+        later = area.xy_to_cell(x + dx, y + dy)
+        # A frame without a step, in which another robot joins, leaves the others on their way; two steps at once do not.
+        frames = [[cells, 0], [later, 1], [[*later, 0], 0], [[*later, 0], 2]]
+        asked = [8, 5, [[list(map(int, own)), count] for own, count in frames]]
+        still, moved, joined, again = (np.transpose(way) for way in shown.page.evaluate(RUNNERS, asked))
+        assert not still.any() and not again.any()
+        np.testing.assert_allclose(moved, bends_of(area, cells, later), atol=1e-5)
+        np.testing.assert_allclose(joined, [*moved, (0, 0)], atol=1e-5)
+    assert shown.faults == []
