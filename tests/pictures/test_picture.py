@@ -1,9 +1,11 @@
+import itertools
 import re
 import xml.etree.ElementTree as ET
 from io import BytesIO
 
 import numpy as np
 import pytest
+import shapely
 from PIL import Image
 
 import trihex as th
@@ -180,6 +182,23 @@ def test_d_scheme_has_an_arrow_along_each_best_move(name):
 
 
 @pytest.mark.parametrize("name", TESSELLATIONS)
+def test_arrows_of_a_cell_are_apart(name):
+    """On triangles they may be but 30 degrees apart; neither heads nor shafts may touch."""
+    scenario = Scenario(Area(name, np.zeros((9, 15))), [(7, 4)])
+    picture = picture_of_d_scheme(make_d_scheme(make_n_scheme(scenario)))
+    (lines,) = [mark for mark in picture.scene.marks if isinstance(mark, Lines)]
+    arrows = {}
+    for arrow in lines.paths:
+        arrows.setdefault(tuple(map(int, scenario.area.tessellation.cell_at_point(*arrow[0]))), []).append(arrow)
+    assert max(map(len, arrows.values())) > 1
+    shapes = {cell: [shapely.LineString(arrow) for arrow in own] for cell, own in arrows.items()}
+    width = lines.width / picture.scene.scale
+    for own in shapes.values():
+        for one, other in itertools.combinations(own, 2):
+            assert one.distance(other) > width
+
+
+@pytest.mark.parametrize("name", TESSELLATIONS)
 def test_small_cells_take_the_colour_of_their_direction(name):
     area = Area(name, np.zeros((41, 41)))
     scene = picture_of_d_scheme(make_d_scheme(make_n_scheme(Scenario(area, [(20, 20)]))), width=200).scene
@@ -303,7 +322,7 @@ def test_few_colours_make_a_palette_image(tmp_path):
 
 def test_unknown_suffix_names_the_choices_and_leaves_nothing(tmp_path):
     picture = picture_of_area(small_scenario("square"))
-    with pytest.raises(FormatError, match=r"must be one of \.png, \.svg, not '\.pgn'; did you mean '\.png'"):
+    with pytest.raises(FormatError, match=r"must be one of \.png, \.svg, \.pdf, not '\.pgn'; did you mean '\.png'"):
         picture.save(tmp_path / "small.pgn")
     with pytest.raises(FileNotFoundError):
         picture.save(tmp_path / "no" / "small.png")

@@ -11,7 +11,7 @@ from trihex.cli.group import DONE, NO
 from trihex.cli.options import PATH, area_options, complete, read_described, robot_options, rule_options, wrong_use
 from trihex.cli.outputs import check_outputs, tell_written
 from trihex.cli.progress import bar
-from trihex.cli.types import Names
+from trihex.cli.types import Names, Planners
 from trihex.errors import AreaError, ScenarioError
 
 if TYPE_CHECKING:
@@ -25,8 +25,8 @@ if TYPE_CHECKING:
 @robot_options
 @click.option(
     "--planners",
-    type=Names("trihex.planners", "PLANNERS"),
-    help="Which planners. [default: greedy,fcost; optimal, too, in the small]",
+    type=Planners("trihex.planners", "PLANNERS"),
+    help="Which planners; options follow as in fcost:rule=paper. [default: greedy,fcost; optimal, too, in the small]",
 )
 @click.option(
     "--tessellations",
@@ -109,8 +109,7 @@ def _draw(rows: list[dict[str, Any]], path: Path) -> None:
     from trihex.files import new_file
     from trihex.pictures import draw_comparison
 
-    drawn = [{**row, "optimal": row["is_proven"] and row["gap"] == 0} for row in rows if row["gap"] is not None]
-    ax = draw_comparison(drawn)
+    ax = draw_comparison(rows)
     with new_file(path) as part:
         ax.figure.savefig(part)
 

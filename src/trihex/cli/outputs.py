@@ -19,7 +19,11 @@ def check_outputs(*outputs: tuple[Path | None, Iterable[str], str]) -> None:
         if path is None or str(path) == "-":
             continue
         if allowed := tuple(suffixes):
-            suffix_of(path, allowed, kind)
+            suffix = suffix_of(path, allowed, kind)
+            if suffix == ".pdf" or kind == "a chart":
+                from trihex.pictures import check_matplotlib
+
+                check_matplotlib(kind if suffix != ".pdf" else f"{kind} in PDF")
         check_output(path)
         if path in seen:
             raise wrong_use(f"two outputs must not have one name, {path}")

@@ -43,7 +43,7 @@ class Outputs(NamedTuple):
 @click.option("--planner-option", metavar="NAME=VALUE", multiple=True, help="One of its options; may be repeated.")
 @click.option("--out", "plan", type=PATH, metavar="PLAN", help="The plan, as .csv or .npz.")
 @click.option("--summary", type=PATH, metavar="FILE", help="The report as JSON; - writes it to the standard output.")
-@click.option("--picture", type=PATH, metavar="FILE", help="The plan drawn, as .png or .svg.")
+@click.option("--picture", type=PATH, metavar="FILE", help="The plan drawn, as .png, .svg or .pdf.")
 @click.option("--waypoints", type=PATH, metavar="FILE", help="Where each robot is when, in metres and seconds.")
 @click.option("--speed", type=Metres(), help="Of the robots, in metres a second. [default: 1.0]")
 @click.option("--write-scenario", type=PATH, metavar="FILE", help="All that was planned, as a scenario .toml.")

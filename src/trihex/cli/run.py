@@ -69,7 +69,7 @@ class Outputs(NamedTuple):
 @click.option("--max-steps", type=Whole(1), default=1_000_000, help="Stop after so many steps. [default: 1000000]")
 @click.option("--out", type=PATH, metavar="RUN", help="What happened, as .npz.")
 @click.option("--summary", type=PATH, metavar="FILE", help="The report as JSON; - writes it to the standard output.")
-@click.option("--picture", type=PATH, metavar="FILE", help="What robots came to know, as .png or .svg.")
+@click.option("--picture", type=PATH, metavar="FILE", help="What robots came to know, as .png, .svg or .pdf.")
 @click.option("--animation", type=PATH, metavar="FILE", help="The robots on their way, as .gif or .mp4.")
 @gathered("beginning", Beginning)
 @gathered("way", Way)

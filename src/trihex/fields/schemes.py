@@ -45,6 +45,11 @@ class NScheme(Record):
         """Distance of each cell, a read-only view of shape (height, width)."""
         return self.scenario.area.layout.cells_of(self.distance_of_site)  # type: ignore[return-value]
 
+    @cached_property
+    def farthest(self) -> int:
+        """The largest distance of a cell from which a destination is reached."""
+        return int(self.distance.max(initial=0, where=self.distance != NOT_REACHED))
+
     def distance_of_cell(self, cells: ArrayLike) -> NDArray[np.int32]:
         """Return the distance of cells given by number."""
         sites = self.scenario.area.layout.cell_to_site(np.asarray(cells, dtype=np.int64))

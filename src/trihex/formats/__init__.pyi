@@ -38,6 +38,7 @@ from .starts.starts import (
 )
 from .text import (
     check_text as check_text,
+    read_text as read_text,
 )
 from .toml import (
     complaint as complaint,

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from trihex.bounds import LowerBound, distance_bound, make_lower_bound
 from trihex.fields import NScheme, make_n_scheme
 from trihex.judging.audit import Audit, audit_plan
+from trihex.judging.corners import count_corner_moves
 from trihex.kernels.preparing import prepare
 from trihex.plans import Plan
 from trihex.record import Record
@@ -62,6 +63,16 @@ class Report(Record):
     def longest_time(self) -> int:
         """The largest t_r among the robots that arrive."""
         return int(self.plan.time_of_robot[self.plan.arrived].max(initial=0))
+
+    @cached_property
+    def corner_moves(self) -> int:
+        """Moves through a lattice vertex where a barrier or the border stands: those that corners="no-cut" forbids."""
+        return count_corner_moves(self.plan)
+
+    @cached_property
+    def squeezing_moves(self) -> int:
+        """Those of the corner moves with a barrier on either side, which corners="no-squeeze" forbids."""
+        return count_corner_moves(self.plan, "no-squeeze") if self.corner_moves else 0
 
     @property
     def steps(self) -> int:
@@ -135,6 +146,8 @@ class Report(Record):
             "gap": self.gap,
             "optimal": self.optimal,
             "conflicts": self.audit.conflict_count,
+            "corner_moves": self.corner_moves,
+            "squeezing_moves": self.squeezing_moves,
             "seconds": {part: self.seconds.get(part) for part in PARTS},
         }
 

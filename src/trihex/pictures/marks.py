@@ -10,7 +10,6 @@ from trihex.kernels.codes import NOT_REACHED
 from trihex.pictures.palette import DESTINATION, INK, PAGE, STRANDED, Colour, is_light
 from trihex.pictures.scene import Discs, Mark, Texts, centres_of, ink_on
 from trihex.pictures.sheet import width_of
-from trihex.plans import Plan
 
 # In pixels per edge step, the diameter of the circle inside a cell.
 LETTERS_FROM = 20.0
@@ -112,15 +111,25 @@ def arrow_paths(area: Area, directions: NDArray[np.uint16]) -> tuple[NDArray[np.
     unit, cells = _units(area), np.flatnonzero(directions)
     bits = directions.reshape(-1)[cells]
     orientation = area.tessellation.orientation_of_cell(*area.cell_to_xy(cells))
+    # Arrows of one cell begin apart and end where the cell does, or, 30 degrees apart on triangles, they look like one.
+    start = np.where(bits & (bits - 1), 0.15, 0.0)[:, None]
+    length = np.minimum(0.88 * _room(area, unit), 0.72)
     arrows = []
     for k in range(unit.shape[1]):
         has = np.flatnonzero(bits >> k & 1)
         centre = np.stack(centres_of(area, cells[has]), axis=-1)
-        way = unit[orientation[has], k]
-        side = np.stack([-way[:, 1], way[:, 0]], axis=-1)
-        tip, neck = centre + 0.44 * way, centre + 0.30 * way
-        arrows.append(np.stack([centre, tip, neck + 0.065 * side, tip, neck - 0.065 * side], axis=1))
+        way, long = unit[orientation[has], k], length[orientation[has], k][:, None]
+        side = 0.055 * np.stack([-way[:, 1], way[:, 0]], axis=-1)
+        tip, neck = centre + long * way, centre + (long - 0.12) * way
+        arrows.append(np.stack([centre + start[has] * way, tip, neck + side, tip, neck - side], axis=1))
     return tuple(np.concatenate(arrows))
+
+
+def _room(area: Area, unit: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return how far it is from the centre of a cell to its border in each direction, shape (2, directions)."""
+    edges = unit[:, : area.tessellation.edge_count]
+    # Half an edge step lies between the centre and each edge.
+    return np.asarray(0.5 / np.einsum("okc,oec->oke", unit, edges).max(axis=-1))
 
 
 def compass_of(area: Area, directions: NDArray[np.uint16], count: int) -> NDArray[np.uint8]:
@@ -135,20 +144,6 @@ def compass_of(area: Area, directions: NDArray[np.uint16], count: int) -> NDArra
     index = (np.round(turn * count).astype(np.int64) % count).astype(np.uint8)
     y, x = np.ogrid[: area.height, : area.width]
     return np.asarray(index[area.tessellation.orientation_of_cell(x, y), directions])
-
-
-def robot_paths(plan: Plan) -> tuple[NDArray[np.float64], ...]:
-    """Return the way of each robot, shape (points, 2), each a little aside, so that paths in one cell do not hide."""
-    area = plan.scenario.area
-    cells = np.stack(list(plan.cells_by_step()))
-    paths = []
-    for robot, end in enumerate(plan.last_cell_of_robot.tolist()):
-        own = np.append(cells[:, robot][cells[:, robot] >= 0], end)
-        own = own[np.append(True, own[1:] != own[:-1])]
-        turn = 2.399963 * robot  # the golden angle: no two robots of a few are aside alike
-        aside = 0.13 * np.array([np.cos(turn), np.sin(turn)]) if plan.scenario.robot_count > 1 else 0.0
-        paths.append(np.stack(centres_of(area, own), axis=-1) + aside)
-    return tuple(paths)
 
 
 def base_cells(record: Area | Scenario, free: int, barrier: int, destination: int) -> NDArray[np.uint8]:

@@ -12,6 +12,7 @@ from trihex.pictures.legend import barrier_colour, barrier_keys, colours_of
 from trihex.pictures.palette import DESTINATION, FREE, MOVING, SERIES, STRANDED
 from trihex.pictures.picture import Picture, titled
 from trihex.pictures.scene import Key, Lines, Mark, Ramp, Scene, colour_rows, scale_for
+from trihex.pictures.ways import robot_paths
 from trihex.plans import Plan, visits_of
 
 PATHS_FROM = 8.0  # pixels per edge step
@@ -55,7 +56,7 @@ def picture_of_plan(
     keys: list[Key | Ramp] = [*barrier_keys(area, ground), Key("cell", DESTINATION, "destination")]
     marks: list[Mark] = make.destination_marks(scenario, scale, over_lines=paths)
     if paths:
-        for robot, path in enumerate(make.robot_paths(plan)):
+        for robot, path in enumerate(robot_paths(plan)):
             colour = SERIES[robot % len(SERIES)] if plan.arrived[robot] else STRANDED
             marks.append(Lines((path,), max(2.0, 0.06 * scale), colour))
             if plan.arrived[robot]:

@@ -18,6 +18,7 @@ from trihex.pictures.palette import DESTINATION, MOVING, PAGE, SERIES, STRANDED,
 from trihex.pictures.png import paint, paint_disc_marks, write_words
 from trihex.pictures.run_picture import CLASS_COLOURS, class_keys, classes_of, run_title
 from trihex.pictures.scene import Discs, Key, Mark, Scene, centres_of, scale_for
+from trihex.pictures.ways import places_between
 from trihex.running import BROKEN, GOING, Run
 
 LATE_COLOUR = SERIES[1]
@@ -137,8 +138,8 @@ class RunFilm(Film):
         at = np.where(cells >= 0, cells, self._last_cells)
         x, y = centres_of(area, at)
         if share:
-            to_x, to_y = centres_of(area, np.where(later >= 0, later, np.where(cells >= 0, self._last_cells, at)))
-            x, y = x + share * (to_x - x), y + share * (to_y - y)
+            next_cells = np.where(later >= 0, later, np.where(cells >= 0, self._last_cells, at))
+            x, y = places_between(area, at, next_cells, share)
         frame = background.copy()
         marks: tuple[Mark, ...] = ()
         if scale < make.LETTERS_FROM and destinations.size:  # cells are too small to be found by their colour alone
