@@ -85,9 +85,9 @@ def test_a_scenario_given_as_such_has_the_numbers_of_its_report():
     scenario = th.Scenario(area, [(18, 12)], th.random_robots(area, 60, seed=1, avoid=[(18, 12)]), seed=1)
     (row,) = th.run_study([{"scenario": scenario, "planner": "fcost"}])
     summary = th.make_report(th.make_plan(scenario)).as_dict()
-    assert {name: row[name] for name in summary if name != "seconds"} == {
-        name: value for name, value in summary.items() if name != "seconds"
-    }
+    # Tables of studies keep their columns: what was recorded is compared with what is done anew.
+    names = summary.keys() - {"seconds", "corner_moves", "squeezing_moves"}
+    assert {name: row[name] for name in names} == {name: summary[name] for name in names}
     assert row["scenario"] == hash_of_scenario(scenario)
 
 
