@@ -129,7 +129,7 @@ def test_robots_that_run_live_bend_too(open_viewer):
         dx, dy = steps[sides, rng.integers(0, 12, 4)].T
         x, y = area.cell_to_xy(cells)
         later = area.xy_to_cell(x + dx, y + dy)
-        # A frame without a step, in which another robot joins, leaves the others on their way; two steps at once do not.
+        # A frame without a step, in which another robot joins, leaves others on their way; two steps at once do not.
         frames = [[cells, 0], [later, 1], [[*later, 0], 0], [[*later, 0], 2]]
         asked = [8, 5, [[list(map(int, own)), count] for own, count in frames]]
         still, moved, joined, again = (np.transpose(way) for way in shown.page.evaluate(RUNNERS, asked))
