@@ -58,16 +58,13 @@ def test_who_watches_sees_what_is_done(words, shown, last, tmp_path):
     assert lines[-1] == last
 
 
-def test_kernels_that_are_missing_are_compiled_under_a_bar_of_their_own(tmp_path):
+def test_kernels_that_are_missing_are_compiled_under_a_bar_of_their_own(tmp_path, monkeypatch):
     code = (
         "from trihex.kernels import preparing; preparing.watch = progress.show_compiling;"
         "from trihex.cli.progress import bar\n"
         "with bar('planning', 'plans'): preparing.prepare('table', 'archive')"
     )
-    os.environ["NUMBA_CACHE_DIR"] = str(tmp_path)
-    try:
-        lines = on_terminal([], tmp_path, code)
-    finally:
-        del os.environ["NUMBA_CACHE_DIR"]
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+    lines = on_terminal([], tmp_path, code)
     assert lines[0].startswith("compiling kernels, once: 0 of 2 [....")
     assert any(line.startswith("compiling kernels, once: 1 of 2") for line in lines)

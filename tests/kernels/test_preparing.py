@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.kernels.test_sources import copy_of_package
+from tests.sweeps import swept
 from trihex.kernels import preparing
 from trihex.kernels.needs import KERNELS_OF, Kernels, kernels_of
 from trihex.planners import PLANNERS
@@ -78,7 +79,7 @@ USES = {
 }
 
 
-@pytest.mark.parametrize("use", USES)
+@pytest.mark.parametrize("use", list(USES)[: swept(len(USES), 3)])
 def test_what_is_prepared_is_what_the_work_takes(use, tmp_path):
     """No kernel is imported during the work that was not loaded before it."""
     code = f"""
