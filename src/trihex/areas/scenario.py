@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas.area import Area, cells_from
+from trihex.areas.area import Area
 from trihex.areas.clearance import check_cell_size, check_rules
-from trihex.errors import ScenarioError, check_choice, check_whole
+from trihex.areas.places import cells_from
+from trihex.errors import ScenarioError, check_choice, check_type, check_whole
 from trihex.record import Record, read_only
 
 CROSSINGS = ("forbid", "allow")
@@ -27,9 +28,9 @@ class Scenario(Record):
     Parameters
     ----------
     area : Area
-    destinations : sequence of (x, y), or array of cell numbers
-        Cells that absorb robots; at least one.
-    robots : sequence of (x, y), or array of cell numbers
+    destinations : sequence of (x, y), or cell numbers
+        Cells that absorb robots; at least one. A single place may be given as it is, ``(x, y)``.
+    robots : sequence of (x, y), or cell numbers
         Start of each robot; robots are numbered in this order. Kept as cell numbers (y * width + x), int64. A robot
         that starts on a destination has arrived at step 0.
     waiting_cost : int, optional
@@ -70,8 +71,7 @@ class Scenario(Record):
 
     def __post_init__(self) -> None:
         area = self.area
-        if not isinstance(area, Area):
-            raise ScenarioError(f"area must be an Area, not {type(area).__name__}")
+        check_type("area", area, Area, error=ScenarioError)
         check_choice("crossing", self.crossing, CROSSINGS, ScenarioError)
         check_choice("corners", self.corners, CORNERS, ScenarioError)
         if self.waiting_cost is None:
@@ -158,7 +158,7 @@ def random_robots(area: Area, count: int, seed: int = 0, *, avoid: Any = ()) -> 
     count : int
     seed : int
         The same seed gives the same robots.
-    avoid : sequence of (x, y), or array of cell numbers
+    avoid : sequence of (x, y), or cell numbers
         Cells to keep free, usually the destinations.
 
     Raises
@@ -166,6 +166,7 @@ def random_robots(area: Area, count: int, seed: int = 0, *, avoid: Any = ()) -> 
     ScenarioError
         If there are fewer free cells than robots.
     """
+    check_type("area", area, Area)
     check_whole("robots", count, 0, _MOST, ScenarioError)
     check_whole("seed", seed, 0, _MOST, ScenarioError)
     is_free = ~area.barriers.reshape(-1)
