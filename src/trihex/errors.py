@@ -21,7 +21,7 @@ Every error that a caller may want to catch descends from `TrihexError`, and fro
 from __future__ import annotations
 
 from collections.abc import Iterable
-from numbers import Integral
+from numbers import Integral, Real
 from os import PathLike
 
 # How to get what is wanted from what was given; for messages. By the names of the classes, as nothing is imported here.
@@ -115,10 +115,25 @@ def check_choice(parameter: str, value: object, choices: Iterable[str], error: t
 
 def check_whole(parameter: str, value: object, least: int, most: int | None, error: type[TrihexError]) -> None:
     """Raise `error` unless `value` is a whole number, numpy's among them, from `least` to `most` (None: no end)."""
-    is_whole = isinstance(value, Integral) and not isinstance(value, bool)
-    if not is_whole or int(value) < least or (most is not None and int(value) > most):  # type: ignore[call-overload]
+    if not is_whole(value) or int(value) < least or (most is not None and int(value) > most):  # type: ignore[call-overload]
         end = "" if most is None else f" to {most}"
         raise error(f"{parameter} must be a whole number from {least}{end}, not {value!r}")
+
+
+def is_whole(value: object) -> bool:
+    """Tell whether `value` is a whole number, numpy's among them; True and False are none."""
+    return isinstance(value, Integral) and not isinstance(value, bool)
+
+
+def check_number(
+    parameter: str, value: object, least: float, most: float, error: type[TrihexError], *, below: bool = False
+) -> None:
+    """Raise `error` unless `value` is a number, numpy's among them, from `least` to `most`, or to `below` it."""
+    is_number = isinstance(value, Real) and not isinstance(value, bool)
+    number = float(value) if is_number else float("nan")  # type: ignore[arg-type]
+    if not least <= number <= most or (below and number == most):
+        end = "" if most == float("inf") else f" to {'below ' if below else ''}{most:g}"
+        raise error(f"{parameter} must be a number from {least:g}{end}, not {value!r:.80}")
 
 
 def kind_of(value: object) -> str:

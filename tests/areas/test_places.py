@@ -22,12 +22,12 @@ SEVERAL = {
     "nothing": ((), []),
 }
 REFUSED = {
-    "tuple of three": ((3, 4, 5), r"places: \(3, 4, 5\) is no place \(x, y\), which has two numbers; cell numbers are to"),
+    "tuple of three": ((3, 4, 5), r"places: \(3, 4, 5\) is no place \(x, y\), which has two numbers; cell numbers are"),
     "tuple of one": ((3,), r"places: \(3,\) is no place"),
     "all x and all y": ((np.array([3, 4, 5]), np.array([1, 0, 2])), "places might be two places or all x and all y"),
     "two x and two y": ((np.array([3, 4]), np.array([1, 0])), r"area.xy_to_cell\(x, y\) makes numbers of x and y"),
     "fractions": ([(0.5, 1)], "must be pairs of integers .* or cell numbers in a list or a flat array, not"),
-    "a mask": (np.zeros((10, 20), dtype=bool), r"not an array of bool of shape \(10, 20\): np.flatnonzero\(mask\) makes"),
+    "a mask": (np.zeros((10, 20), dtype=bool), r"not an array of bool of shape \(10, 20\): np.flatnonzero\(mask\)"),
     "words": ("3,4", "not '3,4'"),
     "a mapping": ({3: 4}, "not {3: 4}"),
     "pairs and numbers": ([(3, 4), 83], "must be pairs of integers"),
@@ -37,7 +37,7 @@ REFUSED = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("place", ONE, ids=lambda place: f"{place!r:.30}")
+@pytest.mark.parametrize("place", ONE, ids=range(len(ONE)))
 def test_one_place_is_one_cell_however_it_is_written(place):
     assert cells_from(AREA, place, "places", th.ScenarioError).tolist() == [NUMBER]
 

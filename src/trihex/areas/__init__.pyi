@@ -50,6 +50,7 @@ from .tessellation import (
     NEIGHBOURHOODS as NEIGHBOURHOODS,
     TESSELLATIONS as TESSELLATIONS,
     Tessellation as Tessellation,
+    tessellation_from as tessellation_from,
 )
 from .world import (
     World as World,

@@ -12,7 +12,7 @@ from trihex.areas.frame import Frame
 from trihex.areas.hexagons import axial_to_xy, whole, xy_to_axial
 from trihex.areas.layout import Layout
 from trihex.areas.places import numbers_from
-from trihex.areas.tessellation import Tessellation
+from trihex.areas.tessellation import Tessellation, tessellation_from
 from trihex.errors import AreaError, TessellationError, check_type, kind_of
 from trihex.record import Record, read_only
 
@@ -53,10 +53,7 @@ class Area(Record):
     frame: Frame | None = None
 
     def __post_init__(self) -> None:
-        if isinstance(self.tessellation, str):
-            self._set("tessellation", Tessellation(self.tessellation))
-        check_type("tessellation", self.tessellation, Tessellation, str)
-        check_type("name", self.name, str)
+        self._set("tessellation", tessellation_from(self.tessellation))
         check_type("frame", self.frame, Frame, type(None))
         barriers = _barriers_from(self.barriers)
         if barriers.ndim != 2 or barriers.size == 0:
@@ -64,6 +61,14 @@ class Area(Record):
         if barriers.size > MAX_CELLS:
             raise AreaError(f"an area may have at most {MAX_CELLS} cells, not {barriers.size}")
         self._set("barriers", read_only(barriers))
+
+    def in_words(self) -> str:
+        """Return shape, size, free cells and name."""
+        tessellation = self.tessellation
+        edge = " edge" * (tessellation.neighbourhood == "edge") + " euclidean" * (tessellation.costs == "euclidean")
+        metres = "" if self.frame is None else f" of {self.frame.cell_size:g} metres"
+        name = f", {self.name!r:.80}" * bool(self.name)
+        return f"{tessellation.name}{edge}, {self.width} x {self.height} cells{metres}, {self.free_count} free{name}"
 
     @property
     def height(self) -> int:
@@ -98,8 +103,7 @@ class Area(Record):
         AreaError
             If the area has a frame: cells of another shape, or with more neighbours, would not fit the world.
         """
-        if isinstance(tessellation, str):
-            tessellation = Tessellation(tessellation)
+        tessellation = tessellation_from(tessellation)
         own = self.tessellation
         if self.frame is not None and (
             own.name != tessellation.name or own.direction_count < tessellation.direction_count
@@ -255,7 +259,7 @@ def _barriers_from(given: object) -> NDArray[np.bool_]:
         what = kind_of(given) if barriers.ndim == 0 else f"{barriers.dtype} values"
         hint = "; read_area reads files of letters" * (barriers.dtype.kind == "U")
         raise AreaError(f"barriers must be rows of True and False, or 1 and 0, not {what}{hint}")
-    is_set = barriers != 0
+    is_set: NDArray[np.bool_] = barriers != 0
     if barriers.size and not ((barriers == 1) == is_set).all():
         odd = barriers[is_set & (barriers != 1)].flat[0]
         raise AreaError(

@@ -31,6 +31,11 @@ def cells_from(area: Area, places: Any, parameter: str, error: type[TrihexError]
     error : type
         What is raised if they are none of these, or lie outside `area`.
     """
+    return _cells_from(area, places, parameter, f"{parameter}: ", error)
+
+
+def _cells_from(area: Area, places: Any, parameter: str, where: str, error: type[TrihexError]) -> NDArray[np.int64]:
+    """As `cells_from`; messages about cells outside begin with `where`."""
     array = _array_from(places, parameter, error)
     if array.size == 0 and array.ndim < 3:
         return np.empty(0, dtype=np.int64)
@@ -40,8 +45,8 @@ def cells_from(area: Area, places: Any, parameter: str, error: type[TrihexError]
         try:
             return area.xy_to_cell(array[:, 0], array[:, 1])
         except AreaError as outside:
-            raise error(f"{parameter}: {outside}") from None
-    return _within(area, array.reshape(-1), f"{parameter}: ", error)
+            raise error(f"{where}{outside}") from None
+    return _within(area, array.reshape(-1), where, error)
 
 
 def numbers_from(area: Area, cells: Any, parameter: str = "cell", error: type[TrihexError] = AreaError) -> Any:
@@ -57,7 +62,7 @@ def numbers_from(area: Area, cells: Any, parameter: str = "cell", error: type[Tr
                 "area.xy_to_cell(x, y) makes numbers of pairs, .reshape(-1) says that they are numbers"
             )
         return _within(area, cells, "", error)
-    found = cells_from(area, cells, parameter, error)
+    found = _cells_from(area, cells, parameter, "", error)
     return found.reshape(()) if _is_whole(cells) or _is_place(cells) else found
 
 

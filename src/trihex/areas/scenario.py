@@ -13,7 +13,7 @@ from trihex.areas.area import Area
 from trihex.areas.clearance import check_cell_size, check_rules
 from trihex.areas.places import cells_from
 from trihex.errors import ScenarioError, check_choice, check_type, check_whole
-from trihex.record import Record, read_only
+from trihex.record import Record, counted, read_only
 
 CROSSINGS = ("forbid", "allow")
 CORNERS = ("allow", "no-squeeze", "no-cut")
@@ -92,6 +92,14 @@ class Scenario(Record):
             raise ScenarioError("destinations must name at least one cell")
         self._set("destinations", read_only(_without_repeats(self.destinations)))
         _check_distinct(area, self.robots)
+
+    def in_words(self) -> str:
+        """Return the area, how many destinations and robots, and rules that are not those of the paper."""
+        rules = {"waiting_cost": self.area.tessellation.edge_cost, "crossing": "forbid", "corners": "allow"}
+        rules["destination_capacity"] = None if self.area.frame is None else 1
+        odd = [f"{name}={getattr(self, name)!r}" for name, usual in rules.items() if getattr(self, name) != usual]
+        goals = counted(self.destinations.size, "destination")
+        return ", ".join([self.area.in_words(), goals, counted(self.robot_count, "robot"), *odd])
 
     @property
     def robot_count(self) -> int:

@@ -10,12 +10,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from math import sqrt
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from trihex.errors import TessellationError, check_choice
+from trihex.errors import TessellationError, check_choice, check_type
 from trihex.record import Record, read_only
 
 if TYPE_CHECKING:
@@ -274,3 +274,11 @@ class Tessellation(Record):
         from trihex.areas.layout import Layout
 
         return Layout(self, height, width)
+
+
+def tessellation_from(given: object) -> Tessellation:
+    """Return a tessellation, or that of a name: the full neighbourhood at the costs of the paper."""
+    if isinstance(given, str):
+        return Tessellation(given)
+    check_type("tessellation", given, Tessellation, str)
+    return cast("Tessellation", given)

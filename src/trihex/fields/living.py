@@ -13,6 +13,7 @@ from trihex.fields import ways
 from trihex.fields.fresh import fill_directions, fill_distances, make_directions, needs_moves
 from trihex.fields.wave import Wave
 from trihex.kernels.codes import NOT_REACHED
+from trihex.record import in_one_line
 
 # A repair takes about as long as making the field afresh when it gives a twelfth of the cells a new distance: on a
 # 300 x 300 cave a moved destination took 37 ms to repair and 2.7 afresh. Small repairs are never worth it.
@@ -39,6 +40,9 @@ class Repair(NamedTuple):
     lowered: int
     sites: NDArray[np.int32]
     is_fresh: bool = False
+
+    def __repr__(self) -> str:
+        return in_one_line(self)
 
     @property
     def touched(self) -> int:

@@ -17,7 +17,7 @@ from trihex.fields.fresh import BLOCK, make_directions, needs_moves
 from trihex.fields.living import LivingField
 from trihex.fields.settling import settle
 from trihex.kernels.codes import NOT_REACHED
-from trihex.record import Record, read_only
+from trihex.record import Record, counted, read_only
 
 _BUDGET = 1 << 16  # cells settled in one call of a kernel, about 1 ms
 
@@ -40,6 +40,12 @@ class NScheme(Record):
     scenario: Scenario
     distance_of_site: NDArray[np.int32]
     horizon: int = NOT_REACHED
+
+    def in_words(self) -> str:
+        """Return the area, how many cells are reached, and how far the farthest is."""
+        reached = self.distance_of_site[self.distance_of_site != NOT_REACHED]
+        far = f"{counted(reached.size, 'cell')} reached, the farthest at {reached.max(initial=0)}"
+        return f"{self.scenario.area.in_words()}, {far}"
 
     @cached_property
     def distance(self) -> NDArray[np.int32]:
@@ -134,6 +140,11 @@ class DScheme(Record):
 
     n_scheme: NScheme
     directions_of_site: NDArray[np.uint16]
+
+    def in_words(self) -> str:
+        """Return the area, and how many cells have a best direction."""
+        cells = counted(int(np.count_nonzero(self.directions_of_site)), "cell")
+        return f"{self.n_scheme.scenario.area.in_words()}, {cells} with directions"
 
     @cached_property
     def directions(self) -> NDArray[np.uint16]:

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from trihex.areas import Area, Scenario
-from trihex.errors import MissingExtraError
+from trihex.errors import MissingExtraError, check_many, check_type
 from trihex.fields import DScheme, NScheme
 from trihex.pictures.area_picture import picture_of_area
 from trihex.pictures.palette import SERIES, Colour
@@ -33,29 +33,37 @@ _LONGER_SIDE, _MOST_STEP = 8.0, 0.9  # of a new figure and of an edge step, in i
 
 def draw_area(record: Area | Scenario, ax: Any = None) -> Any:
     """Draw an area, or a scenario with its destinations and robots; return the Axes."""
+    check_type("record", record, Area, Scenario)
     area = record if isinstance(record, Area) else record.area
     return _draw(lambda width: picture_of_area(record, width=width), area, ax)
 
 
 def draw_n_scheme(n_scheme: NScheme, ax: Any = None) -> Any:
     """Draw the distance of each cell; return the Axes."""
+    check_type("n_scheme", n_scheme, NScheme)
     return _draw(lambda width: picture_of_n_scheme(n_scheme, width=width), n_scheme.scenario.area, ax)
 
 
 def draw_d_scheme(d_scheme: DScheme, ax: Any = None) -> Any:
     """Draw the best moves of each cell; return the Axes."""
+    check_type("d_scheme", d_scheme, DScheme)
     return _draw(lambda width: picture_of_d_scheme(d_scheme, width=width), d_scheme.n_scheme.scenario.area, ax)
 
 
 def draw_plan(plan: Plan, ax: Any = None) -> Any:
     """Draw the paths of a few robots, or how often many robots visit each cell; return the Axes."""
+    check_type("plan", plan, Plan)
     return _draw(lambda width: picture_of_plan(plan, width=width), plan.scenario.area, ax)
 
 
 def draw_arrivals(plans: Plan | Sequence[Plan], ax: Any = None) -> Any:
     """Draw how many robots have arrived after each step, a line for each plan; return the Axes."""
+    plans = [plans] if isinstance(plans, Plan) else plans
+    check_many("plans", plans, Plan, "a plan or a list of plans")
+    for number, plan in enumerate(plans):
+        check_type(f"plans[{number}]", plan, Plan)
     ax = _axes(ax)
-    for number, plan in enumerate([plans] if isinstance(plans, Plan) else plans):
+    for number, plan in enumerate(plans):
         steps = np.sort(plan.arrival_step_of_robot[plan.arrived])
         arrived = np.append(np.arange(steps.size + 1), steps.size)
         label = f"{plan.planner or 'plan'}, {plan.scenario.area.tessellation.name}"
@@ -77,6 +85,7 @@ def draw_comparison(rows: Sequence[Mapping[str, Any]], ax: Any = None) -> Any:
         tessellation become one bar, their mean gap; a star marks plans that are all proven optimal.
     ax : Axes, optional
     """
+    check_many("rows", rows, Mapping, "a list of rows, such as those of a comparison")
     ax = _axes(ax)
     tessellations = list(dict.fromkeys(row["tessellation"] for row in rows))
     planners = list(dict.fromkeys(row["planner"] for row in rows))

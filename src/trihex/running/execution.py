@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from trihex.areas import Scenario, cells_from
-from trihex.errors import ExecutionError, check_choice
+from trihex.errors import ExecutionError, check_choice, check_type
 from trihex.fields import LivingField, NScheme, Repair, make_n_scheme
 from trihex.kernels.codes import LATE, NOT_REACHED, WAIT
 from trihex.planners import PLANNERS
-from trihex.record import read_only
+from trihex.record import in_one_line, read_only
 from trihex.running.fleet import Fleet
 from trihex.running.replanning import Replanner
 from trihex.running.run import BROKEN, LEFT
@@ -38,6 +38,9 @@ class Orders(NamedTuple):
     step: int
     action_of_robot: NDArray[np.uint8]
     cell_of_robot: NDArray[np.int64]
+
+    def __repr__(self) -> str:
+        return in_one_line(self)
 
 
 class Execution:
@@ -94,6 +97,8 @@ class Execution:
         budget: float | None = None,
         n_scheme: NScheme | None = None,
     ) -> None:
+        check_type("scenario", scenario, Scenario)
+        check_type("n_scheme", n_scheme, NScheme, type(None))
         check_choice("planner of an execution", planner, dict.fromkeys((*STEPPERS, *PLANNERS)), ExecutionError)
         check_choice("aside", aside, ASIDE, ExecutionError)
         #: What makes plans; None where robots go step by step.

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.areas import Scenario, cells_from
-from trihex.errors import ExecutionError
+from trihex.errors import ExecutionError, is_whole
 from trihex.kernels.codes import LATE
 from trihex.running.run import ARRIVED, BROKEN, GOING, LEFT
 
@@ -69,7 +69,7 @@ class Fleet:
 
     def check_going(self, robot: int) -> None:
         """Raise ExecutionError unless there is such a robot and it is on its way."""
-        if not isinstance(robot, int | np.integer) or not 0 <= robot < self.size:
+        if not is_whole(robot) or not 0 <= robot < self.size:
             raise ExecutionError(f"robot must be one of 0..{self.size - 1}, not {robot}")
         if self.state[robot] != GOING:
             words = {ARRIVED: "has arrived", LEFT: "has left", BROKEN: "has broken down"}
