@@ -33,7 +33,7 @@ CASES = {
     # arguments of a wrong kind
     "plan of an area": ("th.make_plan(area)", "scenario must be a Scenario, not Area: Scenario(area, destinations, robots) makes one"),
     "field of an area": ("th.make_n_scheme(area)", "scenario must be a Scenario, not Area: Scenario(area, destinations, robots) makes one"),
-    "directions of a scenario": ("th.make_d_scheme(scenario)", "n_scheme must be a NScheme, not Scenario: make_n_scheme(scenario) makes one"),
+    "directions of a scenario": ("th.make_d_scheme(scenario)", "n_scheme must be an NScheme, not Scenario: make_n_scheme(scenario) makes one"),
     "report of a scenario": ("th.make_report(scenario)", "plan must be a Plan, not Scenario: make_plan(scenario) makes one"),
     "audit of a report": ("th.audit_plan(report)", "plan must be a Plan, not Report: report.plan is one"),
     "audit of a file": ("th.audit_plan('plan.npz')", "plan must be a Plan, not 'plan.npz': read_plan(path) reads one"),
@@ -43,7 +43,7 @@ CASES = {
     "scenario without an area": ("th.Scenario([[0, 1]], (0, 0))", "area must be an Area, not list"),
     "execution of a plan": ("th.Execution(plan)", "scenario must be a Scenario, not Plan: plan.scenario is one"),
     "trial for a run": ("th.audit_run(th.Trial(scenario))", "run must be a Run, not Trial: trial.run() makes one"),
-    "N-scheme of another": ("th.make_plan(scenario, n_scheme=area)", "n_scheme must be a NScheme or None, not Area"),
+    "N-scheme of another": ("th.make_plan(scenario, n_scheme=area)", "n_scheme must be an NScheme or None, not Area"),
     "one scenario for many": ("th.make_comparison(scenario, ['greedy'])", "scenarios must be a list of scenarios, not Scenario: put it into brackets, [scenario]"),
     "file and record the wrong way round": ("th.write_plan('plan.npz', plan)", "plan must be a Plan, not 'plan.npz': read_plan(path) reads one"),
     "no path": ("th.read_area(5)", "path must be the path of a file, not int"),
@@ -99,7 +99,8 @@ def chapter_lines():
     """Yield the lines of the chapter of docs/mistakes.md."""
     known = names()
     yield "## In Python\n"
-    yield "Each raises an error of the kind `TrihexError`; `python -m tests.cli.test_bad_places` writes this table anew, too.\n"
+    yield "Each raises a `TrihexError`. `th` is trihex, `np` numpy; `area`, `scenario`, `n_scheme`, `plan`, `report` and `field`, a"
+    yield "`LivingField`, are of a hexagonal area of 6 x 4 cells. The rule for places is in [Conventions](conventions.md#places).\n"
     yield "| mistake | code | message |"
     yield "|---|---|---|"
     for case, (code, message) in CASES.items():
