@@ -19,9 +19,9 @@ def records():
     study = th.make_comparison([scenario.with_robots(scenario.robots[:5])], ["greedy"])
     return [
         area, area.tessellation, area.layout, scenario, n_scheme, th.make_d_scheme(n_scheme), plan,
-        th.make_report(plan), th.audit_plan(plan), th.make_lower_bound(n_scheme), th.make_arrivals(plan), th.picture_of_plan(plan),
-        plan.sets_at(1), th.make_passing_order(plan), th.Frame(0.5), th.make_distance_automaton("hexagonal"),
-        order, run, th.make_run_report(run), th.audit_run(run), repair, study,
+        th.make_report(plan), th.audit_plan(plan), th.make_lower_bound(n_scheme), th.make_arrivals(plan),
+        th.picture_of_plan(plan), plan.sets_at(1), th.make_passing_order(plan), th.Frame(0.5),
+        th.make_distance_automaton("hexagonal"), order, run, th.make_run_report(run), th.audit_run(run), repair, study,
     ]  # fmt: skip
 
 

@@ -154,9 +154,8 @@ def check_type(parameter: str, value: object, *kinds: type, error: type[TrihexEr
         return
     given = "str" if isinstance(value, PathLike) else kind_of(value)
     names = ["None" if kind is type(None) else kind.__name__ for kind in kinds]
-    named = [
-        name if name == "None" else f"{'an' if name[0] in 'AEIO' or name[:2] == 'NS' else 'a'} {name}" for name in names
-    ]
+    vowels = ("A", "E", "I", "O", "NS")  # as they are spoken
+    named = [name if name == "None" else f"{'an' if name.startswith(vowels) else 'a'} {name}" for name in names]
     way = next((_WAYS[name, given] for name in names if (name, given) in _WAYS), "")
     # Too long for a message is what does not fit a line; of arrays and the like the class says enough.
     words = f"{value!r}" if isinstance(value, str) and len(value) < 60 else kind_of(value)
