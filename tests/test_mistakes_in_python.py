@@ -54,7 +54,13 @@ CASES = {
     "planner with a slip": ("th.make_plan(scenario, 'fcsot')", "planner must be one of greedy, fcost, astar, optimal, not 'fcsot'; did you mean 'fcost'?"),
     "delay in words": ("th.Trial(scenario, delay='10%')", "delay must be a number from 0 to below 1, not '10%'"),
     "events in words": ("th.Trial(scenario, events='events.csv')", "events must be a list of events, such as those of read_events, not 'events.csv'"),
+    "event that is none": ("th.Trial(scenario, events=[(5, 'barrier')])", "events[0] must be an Event, not tuple"),
+    "memory in words": ("th.make_plan(scenario, 'optimal', memory_limit='1GB')", "memory_limit, in bytes, must be a number from 0, not '1GB'"),
     # steps and robots
+    "one late robot": ("th.Execution(scenario).step(late=1)", "late must be a list of the numbers of robots, not int: put it into brackets, [late]"),
+    "late robot by name": ("th.Execution(scenario).step(late=['a'])", "late must name robots by their numbers, not ['a']"),
+    "places without robots": ("th.Execution(scenario).place([(1, 0)])", "cell_of_robot must be a Mapping, not list"),
+    "steps in words": ("th.Trial(scenario).run(most_steps='9')", "most_steps must be a whole number from 0, not '9'"),
     "step that there is not": ("plan.sets_at(9)", "step must be 1..6, the last of them after all is done, not 9"),
     "robot that there is not": ("plan.cells_of_robot(2)", "robot must be one of 0..1, not 2"),
 }  # fmt: skip

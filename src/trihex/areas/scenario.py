@@ -77,6 +77,8 @@ class Scenario(Record):
         if self.waiting_cost is None:
             self._set("waiting_cost", area.tessellation.edge_cost)
         check_whole("waiting_cost", self.waiting_cost, 0, _MOST, ScenarioError)
+        if self.seed is not None:
+            check_whole("seed", self.seed, 0, None, ScenarioError)
         if self.destination_capacity is None and area.frame is not None:
             self._set("destination_capacity", 1)
         if self.destination_capacity is not None:

@@ -22,7 +22,7 @@ from trihex.bounds.demand import Demand, make_demand
 from trihex.bounds.gates import make_gate_network
 from trihex.bounds.meetings import find_meeting_nodes
 from trihex.bounds.serving import least_arrivals
-from trihex.errors import check_type
+from trihex.errors import PlanError, check_type, check_whole
 from trihex.fields import NScheme
 from trihex.kernels.codes import NOT_REACHED
 from trihex.record import Record
@@ -107,6 +107,7 @@ def cut_bound(
     progress : callable, optional
         Called with (robots served, robots).
     """
+    check_whole("most_gates", most_gates, 0, None, PlanError)
     check_type("n_scheme", n_scheme, NScheme)
     return LowerBound(
         "cut", _least_cost(n_scheme, _steps_past_gates(make_demand(n_scheme.scenario), most_gates, progress))

@@ -86,6 +86,7 @@ class PassingOrder(Record):
         """
         check_number("delay", delay, 0, 1, PlanError, below=True)
         check_whole("seed", seed, 0, None, PlanError)
+        check_whole("most_steps", most_steps, 0, None, PlanError)
         follower = self.follow()
         rows: list[NDArray[np.uint8]] = []
         robots = self.plan.scenario.robot_count

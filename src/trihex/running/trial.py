@@ -72,6 +72,9 @@ class Trial:
         check_number("delay", delay, 0, 1, ExecutionError, below=True)
         check_whole("seed", seed, 0, None, ExecutionError)
         check_many("events", events, Event, "a list of events, such as those of read_events")
+        events = list(events)
+        for number, event in enumerate(events):
+            check_type(f"events[{number}]", event, Event)
         if sensor is not None and not isinstance(sensor, Sensor):
             sensor = Sensor(scenario.area.tessellation, sensor)
         self.scenario, self.planner, self.sensor, self.delay, self.seed = scenario, planner, sensor, delay, seed
@@ -152,6 +155,7 @@ class Trial:
         progress : callable, optional
             Called with (robots arrived, robots) now and then.
         """
+        check_whole("most_steps", most_steps, 0, None, ExecutionError)
         while not self.is_over and self.steps_done < most_steps:
             self.step()
             if progress is not None and self.steps_done % 16 == 0:
