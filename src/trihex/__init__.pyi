@@ -20,6 +20,7 @@ from .bounds import (
 )
 from .errors import (
     AreaError as AreaError,
+    ArgumentError as ArgumentError,
     AutomatonError as AutomatonError,
     ExecutionError as ExecutionError,
     FormatError as FormatError,

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from trihex.errors import FormatError, check_choice
+from trihex.errors import FormatError, check_choice, check_path
 
 # A cell or a robot-step takes a byte at least: 10^9 of them are more than a text file should hold.
 MAX_BYTES = 2**30
@@ -24,6 +24,7 @@ def read_bytes(path: str | os.PathLike[str], limit: int = MAX_BYTES) -> bytes:
     OSError
         If it cannot be read.
     """
+    check_path(path)
     with open(path, "rb") as file:
         status = os.fstat(file.fileno())
         if not (stat.S_ISREG(status.st_mode) or stat.S_ISFIFO(status.st_mode)):
@@ -43,6 +44,7 @@ def read_bytes(path: str | os.PathLike[str], limit: int = MAX_BYTES) -> bytes:
 
 def suffix_of(path: str | os.PathLike[str], suffixes: Iterable[str], kind: str) -> str:
     """Return the suffix of `path` if it is one of `suffixes`, else raise FormatError naming the `kind` of file."""
+    check_path(path)
     return check_choice(f"{path}: the suffix of {kind}", Path(path).suffix.lower(), suffixes, FormatError)
 
 
@@ -53,6 +55,7 @@ def new_file(path: str | os.PathLike[str]) -> Iterator[Path]:
     Until then a file that was there stays as it is; if the block raises, nothing is left behind. Links are followed,
     and what is not a plain file (a pipe, /dev/null) is written in place.
     """
+    check_path(path)
     target = Path(os.path.realpath(path))
     if target.exists() and not target.is_file():
         if target.is_dir():
@@ -78,6 +81,7 @@ def new_file(path: str | os.PathLike[str]) -> Iterator[Path]:
 
 def check_output(path: str | os.PathLike[str]) -> None:
     """Raise OSError if `path` cannot be written, as far as can be told before the work is done."""
+    check_path(path)
     target = Path(os.path.realpath(path))
     if target.is_dir():
         raise IsADirectoryError(21, "Is a directory", str(path))

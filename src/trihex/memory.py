@@ -2,6 +2,8 @@
 
 import os
 
+from trihex.errors import PlanError, check_number
+
 GIB = 1 << 30
 
 
@@ -16,5 +18,7 @@ def available_memory() -> int:
 
 
 def limit_or_default(memory_limit: int | None) -> int:
-    """Return the limit that the user set, in bytes, or else 80 % of what is available."""
+    """Return the limit that the user set, in bytes, or else 80 % of what is available; PlanError if it is no number."""
+    if memory_limit is not None:
+        check_number("memory_limit, in bytes,", memory_limit, 0, float("inf"), PlanError)
     return available_memory() * 4 // 5 if memory_limit is None else memory_limit

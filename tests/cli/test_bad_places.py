@@ -17,6 +17,7 @@ from click.testing import CliRunner
 from PIL import Image
 
 from tests.cli import test_bad_input
+from tests.test_mistakes_in_python import chapter_lines
 from trihex import Area, Scenario, write_plan
 from trihex.cli import main
 from trihex.plans import plan_from_lists
@@ -146,8 +147,10 @@ def test_bad_place(folder, case):
 def table_lines(folder):
     """Yield the lines of the table of all mistakes, with what trihex says to each."""
     yield "# Mistakes, and what trihex says\n"
-    yield "Every row is run by the tests; `python -m tests.cli.test_bad_places` writes this page anew. Each time the exit status is"
-    yield "2, nothing is on the standard output, and no file is left behind. `bad` is the file with the mistake in it.\n"
+    yield "Every row is run by the tests; `python -m tests.cli.test_bad_places` writes this page anew.\n"
+    yield "## On the command line\n"
+    yield "Each time the exit status is 2, nothing is on the standard output, and no file is left behind. `bad` is the file with the"
+    yield "mistake in it.\n"
     yield "| mistake | in `bad` | command | message |"
     yield "|---|---|---|---|"
     for case, (content, command, message) in (test_bad_input.CASES | CASES).items():
@@ -158,6 +161,8 @@ def table_lines(folder):
         if star and tail in said:  # a list of names that grows, or the words of a library
             said = f"{head}...{said[said.index(tail) :] if tail else ''}"
         yield f"| {case} | {odd_lines(content)} | `{words}` | {said} |".replace("\0", "\\0")
+    yield ""
+    yield from chapter_lines()
 
 
 def odd_lines(content):

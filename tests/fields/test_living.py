@@ -121,3 +121,53 @@ def test_wrong_changes_are_named():
     wide = th.Scenario(th.make_random_area("square", 400, 400, density=0.0, seed=1), [(0, 0)], [(1, 0)])
     with pytest.raises(th.ScenarioError, match="robots only cannot be updated"):
         th.make_n_scheme(wide, robots_only=True).updated(blocked=[(3, 0)])
+
+
+def test_a_scenario_alone_makes_a_field_that_finds_its_directions_when_asked():
+    scenario = corridor()
+    alone, d_scheme = LivingField(scenario), th.make_d_scheme(th.make_n_scheme(scenario))
+    assert np.array_equal(alone.distance, d_scheme.n_scheme.distance)
+    assert alone.directions_of_site is None
+    assert np.array_equal(alone.directions, d_scheme.directions)
+    alone.change(blocked=(0, 1))
+    changed = d_scheme.updated(blocked=(0, 1))
+    assert np.array_equal(alone.directions, changed.directions)
+    assert np.array_equal(alone.unit_vectors, changed.unit_vectors)
+    assert alone.next_cell((0, 2)) == changed.next_cell((0, 2)) == 11
+    assert alone.direction_of_cell([10]).tolist() == changed.direction_of_cell([10]).tolist()
+    assert alone.distance_of_cell((0, 2)) == 88
+
+
+def test_arrays_that_are_no_field_of_the_scenario_are_refused():
+    scenario = corridor()
+    with pytest.raises(th.ScenarioError, match="distance_of_site must be that of an N-scheme or D-scheme of the scen"):
+        LivingField(scenario, th.make_n_scheme(scenario).distance)
+    with pytest.raises(th.ScenarioError, match="directions_of_site must be that of"):
+        LivingField(scenario, None, np.zeros(3, dtype=np.uint16))
+
+
+@pytest.mark.parametrize("corners", ["allow", "no-cut"])
+@pytest.mark.parametrize("name", ["triangular", "hexagonal", "square"])
+def test_where_a_repair_would_take_longer_the_field_is_made_afresh_in_place(name, corners):
+    area = th.make_caves_area(name, 60, 60, seed=2)
+    free = np.flatnonzero(~area.barriers)
+    scenario = th.Scenario(area, free[:1], corners=corners)
+    field = living(scenario)
+    views = field.distance, field.directions, field.moves
+    moved = field.change(opened=free[-1:], closed=free[:1])
+    assert moved.is_fresh
+    assert moved.lowered == free.size
+    assert np.array_equal(np.unique(moved.sites), np.sort(area.layout.cell_to_site(free)))
+    n_scheme = th.make_n_scheme(replace(scenario, destinations=free[-1:]))
+    assert np.array_equal(views[0], n_scheme.distance)
+    assert np.array_equal(views[1], th.make_d_scheme(n_scheme).directions)
+    # A second destination far from the first lowers half of the cells, and closing it raises them again.
+    assert field.change(opened=free[:1]).is_fresh
+    assert field.change(closed=free[:1]).is_fresh
+    assert np.array_equal(views[0], n_scheme.distance)
+    assert np.array_equal(views[1], th.make_d_scheme(n_scheme).directions)
+    assert not field.change(blocked=free[:1]).is_fresh
+    assert field.change(blocked=free[1:-1]).is_fresh
+    assert np.count_nonzero(views[0] != NOT_REACHED) == 1
+    assert field.change(closed=free[-1:]).sites.size
+    assert (views[0] == NOT_REACHED).all()

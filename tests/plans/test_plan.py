@@ -88,5 +88,38 @@ def test_arrays_that_make_no_plan_are_refused(actions, first_action, jumps, mess
 
 
 def test_there_are_no_sets_before_the_first_step():
-    with pytest.raises(th.PlanError, match=r"step must be 1\.\.4, not 0"):
+    with pytest.raises(th.PlanError, match=r"step must be 1\.\.5, .*, not 0"):
         PLAN.sets_at(0)
+
+
+def test_after_the_last_step_all_are_final_as_the_paper_ends():
+    sets = PLAN.sets_at(PLAN.steps + 1)
+    assert [own.tolist() for own in sets] == [[], [], [], list(range(PLAN.scenario.robot_count))]
+    with pytest.raises(th.PlanError, match="step must be"):
+        PLAN.sets_at(PLAN.steps + 2)
+    nothing = th.make_plan(th.Scenario(th.Area("square", [[0, 0]]), (0, 0), (0, 0)))
+    assert nothing.sets_at(1).final.tolist() == [0]
+
+
+@pytest.mark.parametrize("name", ["triangular", "hexagonal", "square"])
+def test_the_path_of_one_robot_is_that_of_all_step_by_step(name):
+    area = th.make_random_area(name, 9, 12, density=0.25, seed=1)
+    plan = th.make_plan(th.Scenario(area, np.flatnonzero(~area.barriers)[:1], th.random_robots(area, 20, seed=2)))
+    steps = list(plan.cells_by_step())
+    for robot in range(20):
+        path = plan.cells_of_robot(robot)
+        last = max(0, int(plan.arrival_step_of_robot[robot]))
+        assert path.size == last + 1
+        assert path[:last].tolist() == [int(cells[robot]) for cells in steps[:last]]
+        assert path[-1] == plan.last_cell_of_robot[robot]
+
+
+def test_the_path_follows_jumps_of_plans_that_were_read():
+    scenario = th.Scenario(th.Area("hexagonal", [[0] * 9]), (8, 0), [(0, 0), (2, 0)])
+    first = np.array([0, 0, 3])
+    plan = th.Plan(scenario, np.array([WAIT, JUMP, WAIT], dtype=np.uint8), first, jumps=[[1, 8]])
+    assert plan.cells_of_robot(0).tolist() == [0]
+    assert plan.cells_of_robot(1).tolist() == [2, 2, 8, 8]
+    for robot in (-1, 2, "0", True):
+        with pytest.raises(th.PlanError, match=r"robot must be one of 0\.\.1, not"):
+            plan.cells_of_robot(robot)

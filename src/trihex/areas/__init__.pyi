@@ -1,7 +1,6 @@
 from .area import (
     MAX_CELLS as MAX_CELLS,
     Area as Area,
-    cells_from as cells_from,
 )
 from .coverage import (
     Covering as Covering,
@@ -26,8 +25,16 @@ from .generators import (
 from .ground import (
     Ground as Ground,
 )
+from .hexagons import (
+    axial_to_xy as axial_to_xy,
+    xy_to_axial as xy_to_axial,
+)
 from .layout import (
     Layout as Layout,
+)
+from .places import (
+    cells_from as cells_from,
+    numbers_from as numbers_from,
 )
 from .regions import (
     make_regions as make_regions,
@@ -43,6 +50,7 @@ from .tessellation import (
     NEIGHBOURHOODS as NEIGHBOURHOODS,
     TESSELLATIONS as TESSELLATIONS,
     Tessellation as Tessellation,
+    tessellation_from as tessellation_from,
 )
 from .world import (
     World as World,

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from trihex.areas.frame import Frame
+from trihex.areas.hexagons import axial_to_xy, whole, xy_to_axial
 from trihex.areas.layout import Layout
-from trihex.areas.tessellation import Tessellation
-from trihex.errors import AreaError, TrihexError
+from trihex.areas.places import numbers_from
+from trihex.areas.tessellation import Tessellation, tessellation_from
+from trihex.errors import AreaError, TessellationError, check_type, kind_of
 from trihex.record import Record, read_only
 
 # Sites are int32, and the widest kernels keep some 40 bytes a cell.
@@ -29,7 +29,7 @@ class Area(Record):
     tessellation : Tessellation or str
         A name stands for the full neighbourhood at the paper's costs.
     barriers : array_like of bool, shape (height, width)
-        True where a cell is a barrier; row 0 is the north, column 0 the west.
+        True, or 1, where a cell is a barrier; row 0 is the north, column 0 the west.
     name : str
         For reports; a reader puts the name of the file here.
     frame : Frame, optional
@@ -38,7 +38,7 @@ class Area(Record):
     Raises
     ------
     AreaError
-        If `barriers` is not a rectangle of at least one cell.
+        If `barriers` is not a rectangle of at least one cell, or holds anything but True and False, 1 and 0.
 
     Examples
     --------
@@ -53,17 +53,22 @@ class Area(Record):
     frame: Frame | None = None
 
     def __post_init__(self) -> None:
-        if isinstance(self.tessellation, str):
-            self._set("tessellation", Tessellation(self.tessellation))
-        try:
-            barriers = np.array(self.barriers, dtype=bool, order="C")
-        except ValueError as error:
-            raise AreaError("barriers must be a rectangle: its rows differ in length") from error
+        self._set("tessellation", tessellation_from(self.tessellation))
+        check_type("frame", self.frame, Frame, type(None))
+        barriers = _barriers_from(self.barriers)
         if barriers.ndim != 2 or barriers.size == 0:
             raise AreaError(f"barriers must have shape (height, width) with at least one cell, not {barriers.shape}")
         if barriers.size > MAX_CELLS:
             raise AreaError(f"an area may have at most {MAX_CELLS} cells, not {barriers.size}")
         self._set("barriers", read_only(barriers))
+
+    def in_words(self) -> str:
+        """Return shape, size, free cells and name."""
+        tessellation = self.tessellation
+        edge = " edge" * (tessellation.neighbourhood == "edge") + " euclidean" * (tessellation.costs == "euclidean")
+        metres = "" if self.frame is None else f" of {self.frame.cell_size:g} metres"
+        name = f", {self.name!r:.80}" * bool(self.name)
+        return f"{tessellation.name}{edge}, {self.width} x {self.height} cells{metres}, {self.free_count} free{name}"
 
     @property
     def height(self) -> int:
@@ -98,8 +103,7 @@ class Area(Record):
         AreaError
             If the area has a frame: cells of another shape, or with more neighbours, would not fit the world.
         """
-        if isinstance(tessellation, str):
-            tessellation = Tessellation(tessellation)
+        tessellation = tessellation_from(tessellation)
         own = self.tessellation
         if self.frame is not None and (
             own.name != tessellation.name or own.direction_count < tessellation.direction_count
@@ -118,9 +122,15 @@ class Area(Record):
         fill_blocked(self.barriers, self.layout.origin, self.layout.pitch, blocked)
         return blocked
 
-    def is_barrier(self, cell: NDArray[np.int64]) -> NDArray[np.bool_]:
-        """Tell for each cell number whether it is a barrier."""
-        return np.asarray(self.barriers.reshape(-1)[cell])
+    def is_barrier(self, cells: ArrayLike) -> NDArray[np.bool_]:
+        """Tell for each cell, a place (x, y) or a number, whether it is a barrier.
+
+        Raises
+        ------
+        AreaError
+            If a cell lies outside.
+        """
+        return np.asarray(self.barriers.reshape(-1)[numbers_from(self, cells)])
 
     def xy_to_cell(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.int64]:
         """Return the numbers of cells (x, y): y * width + x.
@@ -128,9 +138,9 @@ class Area(Record):
         Raises
         ------
         AreaError
-            If a cell lies outside.
+            If a cell lies outside, or x or y is no whole number.
         """
-        x, y = np.asarray(x, dtype=np.int64), np.asarray(y, dtype=np.int64)
+        x, y = whole("x", x), whole("y", y)
         outside = (x < 0) | (y < 0) | (x >= self.width) | (y >= self.height)
         if np.any(outside):
             at = np.unravel_index(int(np.argmax(outside)), outside.shape)
@@ -138,10 +148,61 @@ class Area(Record):
             raise AreaError(f"cell {where} lies outside the area: x is 0..{self.width - 1}, y is 0..{self.height - 1}")
         return np.asarray(y * self.width + x)
 
-    def cell_to_xy(self, cell: ArrayLike) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        """Return (x, y) of cells given by number; the inverse of `xy_to_cell`."""
-        y, x = np.divmod(np.asarray(cell, dtype=np.int64), self.width)
+    def cell_to_xy(self, cells: ArrayLike) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Return (x, y) of cells given by number; the inverse of `xy_to_cell`.
+
+        Raises
+        ------
+        AreaError
+            If a cell lies outside; so does -1, which stands for robots that are not in the area.
+        """
+        y, x = np.divmod(numbers_from(self, cells), self.width)
         return x, y
+
+    def cell_to_axial(self, cells: ArrayLike) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Return the axial coordinates (q, r) of hexagonal cells given by number; (x, y) are "odd-q" offsets.
+
+        Raises
+        ------
+        TessellationError
+            If the cells are no hexagons.
+        AreaError
+            If a cell lies outside.
+
+        Examples
+        --------
+        >>> area = Area("hexagonal", [[0, 0, 0], [0, 0, 0]])
+        >>> [int(number) for number in area.cell_to_axial(5)], int(area.axial_to_cell(2, 0))
+        ([2, 0], 5)
+        """
+        self._check_hexagons()
+        return xy_to_axial(*self.cell_to_xy(cells))
+
+    def axial_to_cell(self, q: ArrayLike, r: ArrayLike) -> NDArray[np.int64]:
+        """Return the numbers of hexagonal cells in axial coordinates; the inverse of `cell_to_axial`."""
+        self._check_hexagons()
+        return self.xy_to_cell(*axial_to_xy(q, r))
+
+    def cell_to_cube(self, cells: ArrayLike) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+        """Return the cube coordinates (q, r, s), q + r + s = 0, of hexagonal cells given by number."""
+        q, r = self.cell_to_axial(cells)
+        return q, r, -q - r
+
+    def cube_to_cell(self, q: ArrayLike, r: ArrayLike, s: ArrayLike) -> NDArray[np.int64]:
+        """Return the numbers of hexagonal cells in cube coordinates; the inverse of `cell_to_cube`.
+
+        Raises
+        ------
+        AreaError
+            If q + r + s is not 0, or a cell lies outside.
+        """
+        if np.any(whole("q", q) + whole("r", r) + whole("s", s) != 0):
+            raise AreaError("cube coordinates must have q + r + s = 0")
+        return self.axial_to_cell(q, r)
+
+    def _check_hexagons(self) -> None:
+        if self.tessellation.name != "hexagonal":
+            raise TessellationError(f"axial and cube coordinates are of hexagons; the area is {self.tessellation.name}")
 
     def metres_to_cell(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.int64]:
         """Return the numbers of the cells in which points of the world lie.
@@ -164,15 +225,15 @@ class Area(Record):
             raise AreaError(f"point ({x[at]:g}, {y[at]:g}) metres lies outside the area")
         return self.xy_to_cell(cell_x, cell_y)
 
-    def cell_to_metres(self, cell: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def cell_to_metres(self, cells: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return where the centres of cells given by number lie in the world.
 
         Raises
         ------
         AreaError
-            If the area has no frame.
+            If the area has no frame, or a cell lies outside.
         """
-        return self.metres.centre_of_cell(self.tessellation, *self.cell_to_xy(cell))
+        return self.metres.centre_of_cell(self.tessellation, *self.cell_to_xy(cells))
 
     @property
     def metres(self) -> Frame:
@@ -186,28 +247,22 @@ class Area(Record):
         return f"({cell % self.width}, {cell // self.width})"
 
 
-def cells_from(area: Area, places: Any, parameter: str, error: type[TrihexError]) -> NDArray[np.int64]:
-    """Return the cell numbers of `places`: pairs (x, y), or a flat array of cell numbers.
-
-    Raises `error`, naming `parameter`, if the places have neither form or lie outside `area`.
-    """
-    if isinstance(places, Iterable) and not isinstance(places, np.ndarray):
-        places = list(places)
+def _barriers_from(given: object) -> NDArray[np.bool_]:
+    """Return `given` as an array of bool, else raise AreaError; that it is a rectangle is not looked at."""
     try:
-        array = np.asarray(places)
-    except ValueError:  # ragged
-        array = np.empty(0, dtype=object).reshape(0, 0, 0)
-    if array.size == 0 and array.ndim < 3:
-        return np.empty(0, dtype=np.int64)
-    if not np.issubdtype(array.dtype, np.integer) or array.ndim not in (1, 2) or array.shape[1:] not in ((), (2,)):
-        raise error(f"{parameter} must be pairs of integers (x, y) or a flat array of cell numbers, not {places!r:.80}")
-    if array.ndim == 2:
-        try:
-            return area.xy_to_cell(array[:, 0], array[:, 1])
-        except AreaError as outside:
-            raise error(f"{parameter}: {outside}") from None
-    cells = array.astype(np.int64)
-    if cells.min() < 0 or cells.max() >= area.cell_count:
-        worst = int(cells[(cells < 0) | (cells >= area.cell_count)][0])
-        raise error(f"{parameter}: cell number {worst} lies outside the area of {area.cell_count} cells")
-    return cells
+        barriers = np.array(given, order="C")
+    except ValueError:
+        raise AreaError("barriers must be a rectangle: its rows differ in length") from None
+    if barriers.dtype == bool:
+        return barriers
+    if barriers.dtype.kind not in "iuf" or barriers.ndim == 0:
+        what = kind_of(given) if barriers.ndim == 0 else f"{barriers.dtype} values"
+        hint = "; read_area reads files of letters" * (barriers.dtype.kind == "U")
+        raise AreaError(f"barriers must be rows of True and False, or 1 and 0, not {what}{hint}")
+    is_set: NDArray[np.bool_] = barriers != 0
+    if barriers.size and not ((barriers == 1) == is_set).all():
+        odd = barriers[is_set & (barriers != 1)].flat[0]
+        raise AreaError(
+            f"barriers must be True and False, or 1 and 0, not {odd:g}: say which values are barriers, such as grid > 0"
+        )
+    return is_set

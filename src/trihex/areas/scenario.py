@@ -9,10 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas.area import Area, cells_from
+from trihex.areas.area import Area
 from trihex.areas.clearance import check_cell_size, check_rules
-from trihex.errors import ScenarioError, check_choice, check_whole
-from trihex.record import Record, read_only
+from trihex.areas.places import cells_from
+from trihex.errors import ScenarioError, check_choice, check_type, check_whole
+from trihex.record import Record, counted, read_only
 
 CROSSINGS = ("forbid", "allow")
 CORNERS = ("allow", "no-squeeze", "no-cut")
@@ -27,9 +28,9 @@ class Scenario(Record):
     Parameters
     ----------
     area : Area
-    destinations : sequence of (x, y), or array of cell numbers
-        Cells that absorb robots; at least one.
-    robots : sequence of (x, y), or array of cell numbers
+    destinations : sequence of (x, y), or cell numbers
+        Cells that absorb robots; at least one. A single place may be given as it is, ``(x, y)``.
+    robots : sequence of (x, y), or cell numbers
         Start of each robot; robots are numbered in this order. Kept as cell numbers (y * width + x), int64. A robot
         that starts on a destination has arrived at step 0.
     waiting_cost : int, optional
@@ -70,13 +71,14 @@ class Scenario(Record):
 
     def __post_init__(self) -> None:
         area = self.area
-        if not isinstance(area, Area):
-            raise ScenarioError(f"area must be an Area, not {type(area).__name__}")
+        check_type("area", area, Area, error=ScenarioError)
         check_choice("crossing", self.crossing, CROSSINGS, ScenarioError)
         check_choice("corners", self.corners, CORNERS, ScenarioError)
         if self.waiting_cost is None:
             self._set("waiting_cost", area.tessellation.edge_cost)
         check_whole("waiting_cost", self.waiting_cost, 0, _MOST, ScenarioError)
+        if self.seed is not None:
+            check_whole("seed", self.seed, 0, None, ScenarioError)
         if self.destination_capacity is None and area.frame is not None:
             self._set("destination_capacity", 1)
         if self.destination_capacity is not None:
@@ -92,6 +94,14 @@ class Scenario(Record):
             raise ScenarioError("destinations must name at least one cell")
         self._set("destinations", read_only(_without_repeats(self.destinations)))
         _check_distinct(area, self.robots)
+
+    def in_words(self) -> str:
+        """Return the area, how many destinations and robots, and rules that are not those of the paper."""
+        rules = {"waiting_cost": self.area.tessellation.edge_cost, "crossing": "forbid", "corners": "allow"}
+        rules["destination_capacity"] = None if self.area.frame is None else 1
+        odd = [f"{name}={getattr(self, name)!r}" for name, usual in rules.items() if getattr(self, name) != usual]
+        goals = counted(self.destinations.size, "destination")
+        return ", ".join([self.area.in_words(), goals, counted(self.robot_count, "robot"), *odd])
 
     @property
     def robot_count(self) -> int:
@@ -171,7 +181,7 @@ def random_robots(area: Area, count: int, seed: int = 0, *, avoid: Any = ()) -> 
     count : int
     seed : int
         The same seed gives the same robots.
-    avoid : sequence of (x, y), or array of cell numbers
+    avoid : sequence of (x, y), or cell numbers
         Cells to keep free, usually the destinations.
 
     Raises
@@ -179,6 +189,7 @@ def random_robots(area: Area, count: int, seed: int = 0, *, avoid: Any = ()) -> 
     ScenarioError
         If there are fewer free cells than robots.
     """
+    check_type("area", area, Area)
     check_whole("robots", count, 0, _MOST, ScenarioError)
     check_whole("seed", seed, 0, _MOST, ScenarioError)
     is_free = ~area.barriers.reshape(-1)

@@ -10,12 +10,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from math import sqrt
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from trihex.errors import TessellationError, check_choice
+from trihex.errors import TessellationError, check_choice, check_type
 from trihex.record import Record, read_only
 
 if TYPE_CHECKING:
@@ -162,6 +162,21 @@ class Tessellation(Record):
         return read_only(np.array([[row[:2] for row in rows] for rows in self._rows], dtype=np.int32))
 
     @cached_property
+    def unit_vector_of_direction(self) -> NDArray[np.float64]:
+        """Vector of length 1 (to the east, to the south) from centre to centre, shape (2 orientations, directions, 2).
+
+        Examples
+        --------
+        >>> Tessellation("square", "edge").unit_vector_of_direction[0].tolist()
+        [[0.0, -1.0], [1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]]
+        """
+        side, step = np.arange(2)[:, None], self.step_of_direction  # cell (1, 0) is of orientation 1, but for squares
+        there = np.stack(self.centre_of_cell(side + step[..., 0], step[..., 1]), axis=-1)
+        here = np.stack(self.centre_of_cell(side, 0 * side), axis=-1)
+        vector = there - here
+        return read_only(np.round(vector / np.linalg.norm(vector, axis=-1, keepdims=True), 12) + 0.0)
+
+    @cached_property
     def vertex_step_of_direction(self) -> NDArray[np.int32]:
         """(dx, dy) of the cell that lends its number to the lattice vertex passed, shaped as the steps; 0 on edges."""
         return read_only(np.array([[row[4] or (0, 0) for row in rows] for rows in self._rows], dtype=np.int32))
@@ -276,3 +291,11 @@ class Tessellation(Record):
         from trihex.areas.layout import Layout
 
         return Layout(self, height, width)
+
+
+def tessellation_from(given: object) -> Tessellation:
+    """Return a tessellation, or that of a name: the full neighbourhood at the costs of the paper."""
+    if isinstance(given, str):
+        return Tessellation(given)
+    check_type("tessellation", given, Tessellation, str)
+    return cast("Tessellation", given)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from trihex.areas.places import numbers_from
 from trihex.areas.scenario import Scenario
 from trihex.errors import ScenarioError
 
@@ -51,8 +52,8 @@ class World:
         return np.array(sorted(self.destinations), dtype=np.int64)
 
     def is_barrier(self, cell: int) -> bool:
-        """Tell whether a cell is a barrier."""
-        return bool(self.barriers[divmod(cell, self.area.width)])
+        """Tell whether a cell, a place (x, y) or a number, is a barrier; raises AreaError if it lies outside."""
+        return bool(self.barriers[divmod(int(numbers_from(self.area, cell)), self.area.width)])
 
     def check(
         self, blocked: NDArray[np.int64], freed: NDArray[np.int64], opened: NDArray[np.int64], closed: NDArray[np.int64]

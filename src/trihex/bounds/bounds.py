@@ -22,6 +22,7 @@ from trihex.bounds.demand import Demand, make_demand
 from trihex.bounds.gates import make_gate_network
 from trihex.bounds.meetings import find_meeting_nodes
 from trihex.bounds.serving import least_arrivals
+from trihex.errors import PlanError, check_type, check_whole
 from trihex.fields import NScheme
 from trihex.kernels.codes import NOT_REACHED
 from trihex.record import Record
@@ -61,6 +62,7 @@ def make_lower_bound(n_scheme: NScheme, *, progress: Callable[[int, int], None] 
     >>> make_lower_bound(make_n_scheme(scenario)).value
     50
     """
+    check_type("n_scheme", n_scheme, NScheme)
     makers = (distance_bound, slot_bound, cut_bound)
     bounds = []
     for make in makers:
@@ -72,6 +74,7 @@ def make_lower_bound(n_scheme: NScheme, *, progress: Callable[[int, int], None] 
 
 def distance_bound(n_scheme: NScheme) -> LowerBound:
     """Sum of the N-scheme's values: nobody ever waits."""
+    check_type("n_scheme", n_scheme, NScheme)
     distance = n_scheme.distance_of_cell(n_scheme.scenario.robots).astype(np.int64)
     return LowerBound("distance", int(distance[distance != NOT_REACHED].sum()))
 
@@ -83,6 +86,8 @@ def slot_bound(n_scheme: NScheme) -> LowerBound:
     forbidden, at most the destination's capacity.
     """
     from trihex.bounds.kernels import steps as kernels
+
+    check_type("n_scheme", n_scheme, NScheme)
 
     scenario = n_scheme.scenario
     slots = np.sort(make_demand(scenario).steps)
@@ -102,6 +107,8 @@ def cut_bound(
     progress : callable, optional
         Called with (robots served, robots).
     """
+    check_whole("most_gates", most_gates, 0, None, PlanError)
+    check_type("n_scheme", n_scheme, NScheme)
     return LowerBound(
         "cut", _least_cost(n_scheme, _steps_past_gates(make_demand(n_scheme.scenario), most_gates, progress))
     )

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from trihex.areas import CORNERS, Scenario, Tessellation
-from trihex.errors import AutomatonError, check_choice
+from trihex.areas import CORNERS, Scenario, Tessellation, tessellation_from
+from trihex.errors import AutomatonError, check_choice, check_type
 from trihex.fields.automaton import CellularAutomaton, States
 from trihex.kernels.codes import NOT_REACHED
 
@@ -35,8 +35,7 @@ def make_distance_automaton(tessellation: Tessellation | str, corners: str = "al
     array([[ 0,  1, 28],
            [10, 14, 24]])
     """
-    if isinstance(tessellation, str):
-        tessellation = Tessellation(tessellation)
+    tessellation = tessellation_from(tessellation)
     check_choice("corners", corners, CORNERS, AutomatonError)
     cost = tessellation.cost_of_direction.reshape(-1, 1, 1)
     sides = [] if corners == "allow" else _sides_of_corner(tessellation)
@@ -59,6 +58,7 @@ def make_distance_automaton(tessellation: Tessellation | str, corners: str = "al
 
 def make_distance_configuration(scenario: Scenario) -> States:
     """Make generation 0 of the distance rule: destinations 0, obstacles 1, all other cells `NOT_REACHED`."""
+    check_type("scenario", scenario, Scenario)
     area = scenario.area
     states = np.where(area.barriers, np.int64(OBSTACLE), np.int64(NOT_REACHED))
     states.reshape(-1)[scenario.destinations] = 0
@@ -77,6 +77,7 @@ def distance_generations(scenario: Scenario, limit: int | None = None) -> Iterat
     >>> [g.tolist() for g in distance_generations(scenario)]
     [[[0, 2147483647, 1, 2147483647]], [[0, 10, 1, 2147483647]]]
     """
+    check_type("scenario", scenario, Scenario)
     automaton = make_distance_automaton(scenario.area.tessellation, scenario.corners)
     return automaton.generations(make_distance_configuration(scenario), limit)
 

@@ -10,15 +10,16 @@ from typing import cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from trihex.areas import Scenario, cells_from
-from trihex.errors import ScenarioError
+from trihex.areas import Scenario, cells_from, numbers_from
+from trihex.errors import ScenarioError, check_type
+from trihex.fields import ways
+from trihex.fields.fresh import BLOCK, make_directions, needs_moves
 from trihex.fields.living import LivingField
-from trihex.fields.settling import are_moves_masked, settle
+from trihex.fields.settling import settle
 from trihex.kernels.codes import NOT_REACHED
-from trihex.record import Record, read_only
+from trihex.record import Record, counted, read_only
 
 _BUDGET = 1 << 16  # cells settled in one call of a kernel, about 1 ms
-_BLOCK = 1 << 24  # sites a kernel looks at in one call, even; Ctrl-C works in between
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,6 +41,12 @@ class NScheme(Record):
     distance_of_site: NDArray[np.int32]
     horizon: int = NOT_REACHED
 
+    def in_words(self) -> str:
+        """Return the area, how many cells are reached, and how far the farthest is."""
+        reached = self.distance_of_site[self.distance_of_site != NOT_REACHED]
+        far = f"{counted(reached.size, 'cell')} reached, the farthest at {reached.max(initial=0)}"
+        return f"{self.scenario.area.in_words()}, {far}"
+
     @cached_property
     def distance(self) -> NDArray[np.int32]:
         """Distance of each cell, a read-only view of shape (height, width)."""
@@ -51,9 +58,17 @@ class NScheme(Record):
         return int(self.distance.max(initial=0, where=self.distance != NOT_REACHED))
 
     def distance_of_cell(self, cells: ArrayLike) -> NDArray[np.int32]:
-        """Return the distance of cells given by number."""
-        sites = self.scenario.area.layout.cell_to_site(np.asarray(cells, dtype=np.int64))
-        return np.asarray(self.distance_of_site[sites])
+        """Return the distance of cells, places (x, y) or numbers; AreaError if one lies outside.
+
+        Examples
+        --------
+        >>> from trihex import Area
+        >>> n_scheme = make_n_scheme(Scenario(Area("square", [[0, 0, 0]]), destinations=[(0, 0)]))
+        >>> int(n_scheme.distance_of_cell((2, 0))), n_scheme.distance_of_cell([1, 2]).tolist()
+        (20, [10, 20])
+        """
+        area = self.scenario.area
+        return np.asarray(self.distance_of_site[area.layout.cell_to_site(numbers_from(area, cells))])
 
     @cached_property
     def generations(self) -> int:
@@ -131,13 +146,46 @@ class DScheme(Record):
     n_scheme: NScheme
     directions_of_site: NDArray[np.uint16]
 
+    def in_words(self) -> str:
+        """Return the area, and how many cells have a best direction."""
+        cells = counted(int(np.count_nonzero(self.directions_of_site)), "cell")
+        return f"{self.n_scheme.scenario.area.in_words()}, {cells} with directions"
+
     @cached_property
     def directions(self) -> NDArray[np.uint16]:
         """Directions of each cell, a read-only view of shape (height, width)."""
         return self.n_scheme.scenario.area.layout.cells_of(self.directions_of_site)  # type: ignore[return-value]
 
-    def names_of_cell(self, cell: int) -> tuple[str, ...]:
-        """Return the names of the best directions of a cell given by number."""
+    @cached_property
+    def unit_vectors(self) -> NDArray[np.float64]:
+        """Vector (east, south) of length 1 along the first best direction of each cell, shape (height, width, 2).
+
+        (0, 0) where there is no direction. A flow field, as games call it.
+        """
+        return read_only(ways.unit_vectors(self.n_scheme.scenario.area.tessellation, self.directions))
+
+    def direction_of_cell(self, cells: ArrayLike) -> NDArray[np.int64]:
+        """Return the first of the best directions of cells, places (x, y) or numbers; -1 where there is none.
+
+        Examples
+        --------
+        >>> from trihex import Area
+        >>> scenario = Scenario(Area("square", [[0, 0, 1, 0]]), destinations=[(0, 0)])
+        >>> d_scheme = make_d_scheme(make_n_scheme(scenario))
+        >>> d_scheme.direction_of_cell([0, 1, 3]).tolist(), d_scheme.next_cell([0, 1, 3]).tolist()
+        ([-1, 3, -1], [0, 0, 3])
+        """
+        return ways.direction_of_cell(self.n_scheme.scenario.area, self.directions, cells)
+
+    def next_cell(self, cells: ArrayLike) -> NDArray[np.int64]:
+        """Return the numbers of the cells to which the first best directions of cells lead.
+
+        It is the cell itself at a destination, and where no destination can be reached.
+        """
+        return ways.next_cell(self.n_scheme.scenario.area, self.directions, cells)
+
+    def names_of_cell(self, cell: ArrayLike) -> tuple[str, ...]:
+        """Return the names of the best directions of a cell, a place (x, y) or a number."""
         area = self.n_scheme.scenario.area
         x, y = area.cell_to_xy(cell)
         names = area.tessellation.direction_names[int(area.tessellation.orientation_of_cell(x, y))]
@@ -183,10 +231,11 @@ def make_n_scheme(
     """
     from trihex.fields.kernels import front as kernels
 
+    check_type("scenario", scenario, Scenario)
     distance = _nothing_reached(scenario)
     horizon = _settle(scenario, distance, robots_only, progress)
-    for start in range(0, distance.size, _BLOCK):
-        kernels.finish(distance[start : start + _BLOCK], horizon)
+    for start in range(0, distance.size, BLOCK):
+        kernels.finish(distance[start : start + BLOCK], horizon)
     if progress is not None:
         progress(scenario.area.free_count, scenario.area.free_count)
     return NScheme(scenario, read_only(distance), horizon)
@@ -199,7 +248,7 @@ def _nothing_reached(scenario: Scenario) -> NDArray[np.int32]:
     layout = scenario.area.layout
     distance = np.empty(layout.size, dtype=np.int32)
     distance[: layout.origin] = distance[layout.origin + layout.height * layout.pitch :] = -1
-    rows = max(1, _BLOCK // layout.pitch)
+    rows = max(1, BLOCK // layout.pitch)
     for y in range(0, layout.height, rows):
         barriers = scenario.area.barriers[y : y + rows]
         kernels.prepare(barriers, layout.origin + y * layout.pitch, layout.pitch, distance)
@@ -214,8 +263,7 @@ def _settle(
     progress: Callable[[int, int], None] | None,
 ) -> int:
     """Settle `distance`, all of it or until the robots' are known, and return the horizon."""
-    area, layout, tessellation = scenario.area, scenario.area.layout, scenario.area.tessellation
-    is_masked = are_moves_masked(tessellation, scenario.corners)
+    area, layout = scenario.area, scenario.area.layout
     sites = layout.cell_to_site(scenario.destinations)
     waiting, done = layout.cell_to_site(scenario.robots), 0
 
@@ -228,7 +276,9 @@ def _settle(
             progress(done, area.free_count)
         return robots_only and waiting.size == 0
 
-    return settle(distance, layout, scenario.moves if is_masked else None, sites, np.zeros_like(sites), look)
+    return settle(
+        distance, layout, scenario.moves if needs_moves(scenario) else None, sites, np.zeros_like(sites), look
+    )
 
 
 def make_d_scheme(n_scheme: NScheme) -> DScheme:
@@ -241,21 +291,10 @@ def make_d_scheme(n_scheme: NScheme) -> DScheme:
     >>> make_d_scheme(n_scheme).names_of_cell(5)
     ('NW',)
     """
-    from trihex.fields.kernels import directions as kernels
-
+    check_type("n_scheme", n_scheme, NScheme)
     scenario = n_scheme.scenario
-    layout = scenario.area.layout
-    end = layout.origin + layout.height * layout.pitch
-    directions = np.empty(layout.size, dtype=np.uint16)
-    directions[: layout.origin] = directions[end:] = 0
-    offset, cost = layout.offset_of_direction, scenario.area.tessellation.cost_of_direction
-    is_odd = np.arange(kernels.BLOCK, dtype=np.uint16) & 1
-    halves = np.empty(kernels.BLOCK + 2 * int(np.abs(offset).max()), dtype=np.uint16)
-    for start in range(layout.origin, end, _BLOCK):
-        stop = min(start + _BLOCK, end)
-        kernels.fill_directions(n_scheme.distance_of_site, offset, cost, start, stop, is_odd, halves, directions)
-    if scenario.corners != "allow":
-        directions &= scenario.moves
+    moves = None if scenario.corners == "allow" else scenario.moves
+    directions = make_directions(n_scheme.distance_of_site, scenario.area.layout, moves)
     return DScheme(n_scheme, read_only(directions))
 
 

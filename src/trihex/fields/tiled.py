@@ -9,14 +9,15 @@ from collections.abc import Callable, Iterable
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from dataclasses import dataclass
 from heapq import heappop, heappush
+from operator import index
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import CORNERS, Tessellation
-from trihex.errors import FormatError, ScenarioError, check_choice
+from trihex.areas import CORNERS, Tessellation, tessellation_from
+from trihex.errors import FormatError, ScenarioError, check_choice, check_path, check_whole
 from trihex.fields.tile import SUFFIXES, Ground, Neighbour, open_cells, settle_tile
 from trihex.files import check_output
 from trihex.kernels.codes import NOT_REACHED
@@ -93,10 +94,12 @@ def make_tiled_field(
     FormatError
         If `area` is no such array, or what lies beside `out` is the beginning of another field.
     """
-    if isinstance(tessellation, str):
-        tessellation = Tessellation(tessellation)
+    tessellation = tessellation_from(tessellation)
     check_choice("corners", corners, CORNERS, ScenarioError)
-    if side < 2 or side % 2:
+    check_path(area, "area")
+    check_path(out, "out")
+    check_whole("side of a tile", side, 2, None, ScenarioError)
+    if side % 2:
         raise ScenarioError(f"side of a tile must be an even number from 2 on, not {side}")
     area, out = Path(area), Path(out)
     check_choice(f"{out}: the suffix of a field", out.suffix.lower(), SUFFIXES, FormatError)
@@ -121,7 +124,10 @@ def make_tiled_field(
 def _checked(cells: Any, destinations: Iterable[tuple[int, int]]) -> tuple[tuple[int, int], ...]:
     """Return the destinations if they are free cells."""
     height, width = cells.shape
-    places = tuple((int(x), int(y)) for x, y in destinations)
+    try:
+        places = tuple((index(x), index(y)) for x, y in _pairs(destinations))
+    except (TypeError, ValueError):
+        raise ScenarioError(f"destinations must be pairs of integers (x, y), not {destinations!r:.80}") from None
     if not places:
         raise ScenarioError("destinations must name at least one cell")
     for number, (x, y) in enumerate(places):
@@ -131,6 +137,12 @@ def _checked(cells: Any, destinations: Iterable[tuple[int, int]]) -> tuple[tuple
         if cells[y, x]:
             raise ScenarioError(f"destination {number} must stand on a free cell; ({x}, {y}) is a barrier")
     return places
+
+
+def _pairs(places: Any) -> Any:
+    """Return `places`, or one place (x, y) as the only one."""
+    is_pair = isinstance(places, tuple) and len(places) == 2 and all(hasattr(one, "__index__") for one in places)
+    return [places] if is_pair else places
 
 
 def _make_file(path: Path, shape: tuple[int, int], side: int) -> None:

@@ -11,6 +11,7 @@ from trihex.kernels.codes import NOT_REACHED
 
 BUDGET = 1 << 18  # entries looked at in one call of a kernel, a few hundredths of a second
 _LEAST = 1 << 10
+_PIECE = 1 << 12  # entries between two looks at how many cells a wave has changed that may be too many
 
 
 class Wave:
@@ -44,14 +45,20 @@ class Wave:
         self._lists = np.empty((3, _LEAST), dtype=np.int32)
         self._log = np.empty(_LEAST, dtype=np.int32)
 
-    def raised(self, doubtful: NDArray[np.int32]) -> NDArray[np.int32]:
-        """Raise to "not reached" what has lost its support, beginning at `doubtful` sites; return the sites raised."""
-        doubtful = doubtful[self.distance_of_site[doubtful] != NOT_REACHED]
-        return self._run(self._kernels.RAISE, doubtful)
+    def raised(self, doubtful: NDArray[np.int32], most: int | None = None) -> NDArray[np.int32] | None:
+        """Raise to "not reached" what has lost its support, beginning at `doubtful` sites; return the sites raised.
 
-    def lowered(self, sites: NDArray[np.int32]) -> NDArray[np.int32]:
-        """Let what comes nearer by way of `sites` know; return all sites that have a new distance."""
-        return self._run(self._kernels.LOWER, sites)
+        None, with the wave broken off, if they are more than `most`.
+        """
+        doubtful = doubtful[self.distance_of_site[doubtful] != NOT_REACHED]
+        return self._run(self._kernels.RAISE, doubtful, most)
+
+    def lowered(self, sites: NDArray[np.int32], most: int | None = None) -> NDArray[np.int32] | None:
+        """Let what comes nearer by way of `sites` know; return all sites that have a new distance.
+
+        None, with the wave broken off, if they are more than `most`.
+        """
+        return self._run(self._kernels.LOWER, sites, most)
 
     def best_of(self, sites: NDArray[np.int32]) -> NDArray[np.int32]:
         """Return the least distance that each of `sites` can have by one move to a neighbour as it is now."""
@@ -66,16 +73,19 @@ class Wave:
         for start in range(0, sites.size, BUDGET):
             self._kernels.renew_directions(sites[start : start + BUDGET], self.field, self._back, directions_of_site)
 
-    def _run(self, wave: int, sites: NDArray[np.int32]) -> NDArray[np.int32]:
+    def _run(self, wave: int, sites: NDArray[np.int32], most: int | None) -> NDArray[np.int32] | None:
         kernels = self._kernels
         beginnings = self.distance_of_site[sites].astype(np.int64) << 32 | sites
         beginnings.sort()
         beginnings.flags.writeable = False
         state = np.zeros(kernels.STATE_SIZE, dtype=np.int64)
         front = kernels.WaveFront(state, beginnings, self._lists.reshape(-1), self._log)
+        budget = BUDGET if most is None else _PIECE
         while True:
-            kernels.run_wave(wave, front, self.field, BUDGET)
+            kernels.run_wave(wave, front, self.field, budget)
             reason = state[kernels.REASON]
+            if most is not None and state[kernels.LOGGED] > most:
+                return None
             if reason == kernels.DONE:
                 return self._log[: state[kernels.LOGGED]].copy()
             if reason == kernels.TOO_FAR:

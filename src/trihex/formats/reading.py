@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import os
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
 
 from trihex.areas import Area, Scenario, Tessellation
 from trihex.areas.coverage import Progress
-from trihex.errors import FormatError
+from trihex.errors import FormatError, check_options, check_type
 from trihex.files import read_bytes
 from trihex.formats.areas.options import AreaOptions
 from trihex.formats.draft import Draft, draft_of
@@ -50,6 +50,7 @@ def read_draft(
     OSError
         If it cannot be read.
     """
+    _check_names("read_draft", options)
     content = read_bytes(path)
     form = FORMATS[format_of(content, path)]
     given = {name: value for name, value in options.items() if value is not None}
@@ -68,10 +69,17 @@ def read_draft(
     return draft if wanted == own else replace(draft, area=draft.area.with_tessellation(wanted))
 
 
+def _check_names(reader: str, options: dict[str, Any]) -> None:
+    """Raise ArgumentError if an option does not exist."""
+    own = (option.name for option in fields(AreaOptions))
+    check_options(reader, options, dict.fromkeys([*own, "neighbourhood", "costs", "progress"]))
+
+
 def _wanted(
     own: Tessellation, tessellation: Tessellation | str | None, neighbourhood: str | None, costs: str | None
 ) -> Tessellation:
     """Return `own`, changed by what else is given."""
+    check_type("tessellation", tessellation, Tessellation, str, type(None))
     base = tessellation if isinstance(tessellation, Tessellation) else own
     name = tessellation if isinstance(tessellation, str) else base.name
     return Tessellation(name, neighbourhood or base.neighbourhood, costs or base.costs)
@@ -99,6 +107,7 @@ def read_area(
     **options: Any,
 ) -> Area:
     """Return the area of a file, named after it; see `read_draft`."""
+    _check_names("read_area", options)
     return read_draft(path, tessellation, progress=progress, **options).area
 
 
@@ -116,6 +125,7 @@ def read_scenario(
     ScenarioError
         If the file names no destination, or its parts do not fit.
     """
+    _check_names("read_scenario", options)
     return read_draft(path, tessellation, progress=progress, **options).complete()
 
 
@@ -140,6 +150,7 @@ def read_plan(
     OSError
         If it cannot be read.
     """
+    check_type("scenario", scenario, Scenario, type(None))
     content = read_bytes(path)
     form = FORMATS[format_of(content, path)]
     if form.holds != "plan":

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 
+from trihex.errors import check_type
 from trihex.files import new_file
 from trihex.judging import Report
 
@@ -16,5 +17,6 @@ def report_text(report: Report) -> str:
 
 def write_report(report: Report, path: str | os.PathLike[str]) -> None:
     """Write the summary as JSON."""
+    check_type("report", report, Report)
     with new_file(path) as part:
         part.write_text(report_text(report), encoding="utf-8")

@@ -7,6 +7,7 @@ from typing import Any
 
 from trihex.areas import Area, Scenario
 from trihex.areas.coverage import Progress
+from trihex.errors import check_options, check_type
 from trihex.formats.registry import WRITERS, writer_of
 from trihex.plans import Plan
 
@@ -24,6 +25,7 @@ def write_area(area: Area, path: str | os.PathLike[str]) -> None:
     FormatError
         If the area has a frame and the format is not ``.toml``.
     """
+    check_type("area", area, Area)
     writer_of("an area", path)(area, path)
 
 
@@ -35,6 +37,8 @@ def write_scenario(scenario: Scenario, path: str | os.PathLike[str], **planner: 
     FormatError
         If letters cannot carry it.
     """
+    check_options("write_scenario", planner, ("planner", "planner_options", "outputs"))
+    check_type("scenario", scenario, Scenario)
     writer_of("a scenario", path)(scenario, path, **planner)
 
 
@@ -48,6 +52,7 @@ def write_plan(plan: Plan, path: str | os.PathLike[str], *, progress: Progress |
     progress : callable, optional
         Called with (done, total) while a CSV or npz is written.
     """
+    check_type("plan", plan, Plan)
     writer_of("a plan", path)(plan, path, progress=progress)
 
 
@@ -65,6 +70,8 @@ def write_waypoints(plan: Plan, path: str | os.PathLike[str], *, speed: float = 
         If the speed is not above 0, or a robot does what no robot can.
     """
     from trihex.formats.tracks.tracks import make_tracks
+
+    check_type("plan", plan, Plan)
 
     write = writer_of("waypoints", path)
     write(make_tracks(plan, speed), path)

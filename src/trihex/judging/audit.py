@@ -14,11 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.areas import Scenario
+from trihex.errors import PlanError, check_type, check_whole
 from trihex.judging.conflict import STOPS, Conflict, conflict_from
 from trihex.judging.law import make_law, make_places
 from trihex.judging.reach import is_reachable
 from trihex.plans import Plan
-from trihex.record import Record
+from trihex.record import Record, counted
 
 if TYPE_CHECKING:
     from trihex.judging.kernels.meetings import JudgedRobots, Places
@@ -44,6 +45,11 @@ class Audit(Record):
     plan: Plan
     conflicts: tuple[Conflict, ...]
     conflict_count: int
+
+    def in_words(self) -> str:
+        """Return how many conflicts there are, and the first."""
+        first = f", the first: {self.conflicts[0]}" if self.conflicts else ""
+        return counted(self.conflict_count, "conflict") + first
 
     @property
     def is_clean(self) -> bool:
@@ -77,6 +83,8 @@ def audit_plan(plan: Plan, limit: int = 100, *, progress: Callable[[int, int], N
     >>> print(audit_plan(plan_from_lists(scenario, [[east, east], [west, east, east]])).conflicts[0])
     step 1: robots 0 and 1 exchange cells (0, 0) and (1, 0)
     """
+    check_type("plan", plan, Plan)
+    check_whole("limit", limit, 0, None, PlanError)
     found, count, site, stopped = _judged(plan, limit, progress)
     if stopped.size:
         could = stopped[is_reachable(plan.scenario, plan.scenario.robots[stopped])]

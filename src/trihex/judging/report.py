@@ -11,12 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.bounds import LowerBound, distance_bound, make_lower_bound
+from trihex.errors import check_type
 from trihex.fields import NScheme, make_n_scheme
 from trihex.judging.audit import Audit, audit_plan
 from trihex.judging.corners import count_corner_moves
 from trihex.kernels.preparing import prepare
 from trihex.plans import Plan
-from trihex.record import Record
+from trihex.record import Record, counted, html_table
 
 PARTS = ("read", "field", "plan", "audit")
 
@@ -43,6 +44,16 @@ class Report(Record):
     bound: LowerBound
     unreachable_robots: NDArray[np.int64]
     seconds: Mapping[str, float] = field(default_factory=dict)
+
+    def in_words(self) -> str:
+        """Return the words of the plan, the lower bound, the gap and the conflicts."""
+        gap = "no gap" if self.gap is None else f"gap {100 * self.gap:.1f} %"
+        bound = f"lower bound {self.lower_bound} ({self.lower_bound_name}), {gap}"
+        return f"{self.plan.in_words()}, {bound}, {counted(self.audit.conflict_count, 'conflict')}"
+
+    def _repr_html_(self) -> str:
+        """Return the numbers as a table, for notebooks."""
+        return html_table([self.as_dict()])
 
     @property
     def total_time(self) -> int:
@@ -179,6 +190,10 @@ def make_report(
     >>> report.total_time, report.lower_bound, round(report.gap, 3)
     (40, 30, 0.333)
     """
+    check_type("plan", plan, Plan)
+    check_type("n_scheme", n_scheme, NScheme, type(None))
+    check_type("audit", audit, Audit, type(None))
+    check_type("lower_bound", lower_bound, LowerBound, type(None))
     prepare(*("audit",) * (audit is None), *("bound",) * (lower_bound is None and not plan.optimal))
     n_scheme = make_n_scheme(plan.scenario) if n_scheme is None else n_scheme
     audit = audit_plan(plan) if audit is None else audit

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from trihex.areas import Area, Ground, Scenario
+from trihex.errors import check_type
 from trihex.pictures import marks as make
 from trihex.pictures.legend import barrier_colour, barrier_keys
 from trihex.pictures.palette import DESTINATION, FREE, MOVING
@@ -39,6 +40,7 @@ def picture_of_area(
     >>> picture_of_area(Area("square", [[0, 1], [0, 0]]), width=100, title="", legend=False).to_array().shape
     (100, 100, 3)
     """
+    check_type("record", record, Area, Scenario)
     area, scale, more = _area_of(record), scale_for(_area_of(record), width), ""
     marks: list[Mark] = []
     keys: list[Key | Ramp] = barrier_keys(area, ground)

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from trihex.errors import FormatError
+from trihex.errors import FormatError, check_many, check_type
 from trihex.pictures.axes import fit_legend, keep_room, matplotlib, new_axes, rgb, series
 from trihex.pictures.palette import INK
 from trihex.plans import Plan
@@ -31,8 +31,12 @@ def draw_arrivals(
     plans: Plan | Sequence[Plan], ax: Any = None, *, title: str | None = None, legend: bool = True
 ) -> Any:
     """Draw how many robots have arrived after each step, a line for each plan; return the Axes."""
+    plans = [plans] if isinstance(plans, Plan) else plans
+    check_many("plans", plans, Plan, "a plan or a list of plans")
+    for number, plan in enumerate(plans):
+        check_type(f"plans[{number}]", plan, Plan)
     ax = new_axes(ax)
-    for number, plan in enumerate([plans] if isinstance(plans, Plan) else plans):
+    for number, plan in enumerate(plans):
         steps = np.sort(plan.arrival_step_of_robot[plan.arrived])
         arrived = np.append(np.arange(steps.size + 1), steps.size)
         label = f"{plan.planner or 'plan'}, {plan.scenario.area.tessellation.name}"

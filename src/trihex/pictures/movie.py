@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from trihex.errors import check_type
 from trihex.pictures.area_picture import picture_of_area
 from trihex.pictures.film import MOST_SIDE, Film, Groups, Progress, write_film
 from trihex.pictures.marks import LETTERS, LETTERS_FROM
@@ -69,6 +70,7 @@ def write_animation(
     MissingExtraError
         If an .mp4 is asked for without PyAV.
     """
+    check_type("plan", plan, Plan)
     write_film(PlanFilm(plan, max_frames, width, title, clock, legend), path, frames_per_second, progress)
 
 

@@ -35,6 +35,10 @@ class Picture(Record):
 
     scene: Scene
 
+    def in_words(self) -> str:
+        """Return the title and the line below it."""
+        return f"{self.scene.title!r}, {self.scene.subtitle!r}"
+
     def to_array(self) -> NDArray[np.uint8]:
         """Return the pixels as RGB, shape (height, width, 3)."""
         return paint(self.scene)

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from trihex.areas import Area, Ground, Scenario
+from trihex.errors import check_type
 from trihex.pictures import marks as make, palette
 from trihex.pictures.legend import barrier_colour, barrier_keys, colours_of
 from trihex.pictures.palette import DESTINATION, FREE, MOVING, SERIES, STRANDED
@@ -42,6 +43,7 @@ def picture_of_plan(
     crop : bool
         Whether to show only the part of the area that holds free cells, if that is less than half of it.
     """
+    check_type("plan", plan, Plan)
     whole = plan.scenario.area
     if crop:
         plan, ground = _cropped(plan, ground)

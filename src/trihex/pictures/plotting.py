@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.areas import Area, Scenario
+from trihex.errors import check_type
 from trihex.fields import DScheme, NScheme
 from trihex.pictures.area_picture import picture_of_area
 from trihex.pictures.axes import PIXELS_PER_POINT, draw_legend, draw_scene, new_axes
@@ -27,12 +28,14 @@ _LONGER_SIDE, _MOST_STEP = 8.0, 0.9  # of a new figure and of an edge step, in i
 
 def draw_area(record: Area | Scenario, ax: Any = None, *, title: str | None = None, legend: bool = True) -> Any:
     """Draw an area, or a scenario with its destinations and robots; return the Axes."""
+    check_type("record", record, Area, Scenario)
     area = record if isinstance(record, Area) else record.area
     return draw_on(lambda width: picture_of_area(record, width=width, title=title), area, ax, legend)
 
 
 def draw_n_scheme(n_scheme: NScheme, ax: Any = None, *, title: str | None = None, legend: bool = True) -> Any:
     """Draw the distance of each cell; return the Axes."""
+    check_type("n_scheme", n_scheme, NScheme)
     area = n_scheme.scenario.area
     return draw_on(lambda width: picture_of_n_scheme(n_scheme, width=width, title=title), area, ax, legend)
 
@@ -57,12 +60,14 @@ def draw_generation(
 
 def draw_d_scheme(d_scheme: DScheme, ax: Any = None, *, title: str | None = None, legend: bool = True) -> Any:
     """Draw the best moves of each cell; return the Axes."""
+    check_type("d_scheme", d_scheme, DScheme)
     area = d_scheme.n_scheme.scenario.area
     return draw_on(lambda width: picture_of_d_scheme(d_scheme, width=width, title=title), area, ax, legend)
 
 
 def draw_plan(plan: Plan, ax: Any = None, *, title: str | None = None, legend: bool = True) -> Any:
     """Draw the paths of a few robots, or how often many robots visit each cell; return the Axes."""
+    check_type("plan", plan, Plan)
     return draw_on(lambda width: picture_of_plan(plan, width=width, title=title), plan.scenario.area, ax, legend)
 
 

@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from trihex.errors import check_type
 from trihex.kernels.codes import LATE, WAIT
 from trihex.pictures import marks as make
 from trihex.pictures.film import MOST_SIDE, Film, Groups, Progress, write_film
@@ -39,6 +40,7 @@ def write_run_animation(
 
     Parameters and errors are those of `trihex.write_animation`.
     """
+    check_type("run", run, Run)
     film = RunFilm(run, max_frames, width, run_title(run) if title is None else title)
     write_film(film, path, frames_per_second, progress)
 

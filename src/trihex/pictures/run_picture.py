@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from trihex.errors import check_type
 from trihex.pictures import marks as make, palette
 from trihex.pictures.legend import scale_bars
 from trihex.pictures.palette import BARRIER, DESTINATION, FREE, MOVING, STRANDED
@@ -50,6 +51,7 @@ def picture_of_run(run: Run, *, width: int | None = None, title: str | None = No
 
     The parameters are those of `trihex.picture_of_area`.
     """
+    check_type("run", run, Run)
     area, scale = run.scenario.area, scale_for(run.scenario.area, width)
     first = len(CLASS_COLOURS)
     cells = classes_of(run, run.steps, *run.last_world)

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.areas import Scenario
+from trihex.errors import check_type
 from trihex.fields import DScheme, NScheme
 from trihex.kernels.codes import NOT_REACHED
 from trihex.pictures import marks as make, palette
@@ -25,6 +26,7 @@ def picture_of_n_scheme(
 
     The parameters are those of `picture_of_area`.
     """
+    check_type("n_scheme", n_scheme, NScheme)
     area = n_scheme.scenario.area
     scene = _scene_of_distances(n_scheme.scenario, n_scheme.distance, scale_for(area, width))
     return titled(scene, title, "N-scheme", f", costs {area.tessellation.costs}", legend)
@@ -54,6 +56,7 @@ def picture_of_generation(
     width, title, legend
         As for `picture_of_area`.
     """
+    check_type("scenario", scenario, Scenario)
     distance = np.where(scenario.area.barriers, NOT_REACHED, states)
     scene = _scene_of_distances(scenario, distance, scale_for(scenario.area, width), far)
     return titled(scene, title, f"Generation {number}", f", costs {scenario.area.tessellation.costs}", legend)
@@ -89,6 +92,7 @@ def picture_of_d_scheme(
 
     The parameters are those of `picture_of_area`.
     """
+    check_type("d_scheme", d_scheme, DScheme)
     scenario = d_scheme.n_scheme.scenario
     area, directions = scenario.area, d_scheme.directions
     scale = scale_for(area, width)

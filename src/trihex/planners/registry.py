@@ -8,12 +8,13 @@ its keyword-only parameters are its options, and it is imported when first asked
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from difflib import get_close_matches
 from importlib import import_module
 from typing import Any, Literal, overload
 
 from trihex.areas import Scenario
-from trihex.errors import PlanError, check_choice
+from trihex.errors import PlanError, check_choice, check_type
 from trihex.fields import NScheme, field_kernels, make_n_scheme
 from trihex.kernels.preparing import prepare
 from trihex.plans import Arrivals, Plan, make_arrivals
@@ -21,6 +22,16 @@ from trihex.plans import Arrivals, Plan, make_arrivals
 Progress = Callable[[int, int], None]
 Planner = Callable[..., Plan]
 
+# Parts of a scenario, by their names and by those that users try.
+_PARTS = {
+    **dict.fromkeys(("waiting_cost", "wt", "w_t", "waiting", "wait_cost", "waiting_time"), "waiting_cost"),
+    **dict.fromkeys(("crossing", "cross"), "crossing"),
+    **dict.fromkeys(("corners", "corner_rule", "diagonals"), "corners"),
+    **dict.fromkeys(("destination_capacity", "capacity", "exit_capacity"), "destination_capacity"),
+    **dict.fromkeys(("destinations", "goals", "targets", "exits"), "destinations"),
+    **dict.fromkeys(("robots", "starts", "agents"), "robots"),
+    "seed": "seed",
+}
 RECORDS = ("plan", "arrivals")
 
 # Name: the module under trihex.planners that defines plan_<name>.
@@ -50,6 +61,41 @@ def options_of(name: str) -> dict[str, Any]:
     """
     parameters = inspect.signature(planner_named(name)).parameters.values()
     return {p.name: p.default for p in parameters if p.kind is p.KEYWORD_ONLY and p.name != "progress"}
+
+
+def check_planner_options(name: str, options: Iterable[str]) -> None:
+    """Raise PlanError if the planner `name` has no such option, saying where else it belongs.
+
+    Examples
+    --------
+    >>> check_planner_options("greedy", ["rule"])
+    Traceback (most recent call last):
+    trihex.errors.PlanError: planner 'greedy' has no options, so not 'rule'; planner 'fcost' has it
+    """
+    known = options_of(name)
+    for option in options:
+        if option in known:
+            continue
+        hint = _place_of(option, known)
+        rule = f"option of planner {name!r} must be one of {', '.join(known)}, not {option!r:.80}"
+        words = rule if known else f"planner {name!r} has no options, so not {option!r:.80}"
+        raise PlanError(f"{words}{hint and f'; {hint}'}")
+
+
+def _place_of(option: str, known: Iterable[str]) -> str:
+    """Return where an option that a planner has not belongs, or which was meant; empty if nobody knows."""
+    near = get_close_matches(option.lower(), known, n=1)
+    if near:
+        return f"did you mean {near[0]!r}?"
+    others = [name for name in PLANNERS if option in options_of(name)]
+    if others:
+        names = " and ".join(map(repr, others))
+        return f"planner {names} has it" if len(others) == 1 else f"planners {names} have it"
+    near = get_close_matches(option.lower(), _PARTS, n=1)
+    if near:
+        return f"it is a part of the scenario, Scenario({_PARTS[near[0]]}=...)"
+    near = get_close_matches(option.lower(), ("n_scheme", "progress", "record", "planner"), n=1)
+    return f"did you mean {near[0]!r}?" if near else ""
 
 
 @overload
@@ -110,12 +156,11 @@ def make_plan(
     >>> make_plan(scenario, "greedy").time_of_robot
     array([30, 20])
     """
+    check_type("scenario", scenario, Scenario)
+    check_type("n_scheme", n_scheme, NScheme, type(None))
     plan = planner_named(planner)
     check_choice("record", record, RECORDS, PlanError)
-    known = options_of(planner)
-    for option in options:
-        if option not in known:
-            check_choice(f"option of planner {planner!r}", option, known, PlanError)
+    check_planner_options(planner, options)
     prepare(planner, field_kernels(scenario.area.tessellation, scenario.corners))
     if n_scheme is None:
         n_scheme = make_n_scheme(scenario)

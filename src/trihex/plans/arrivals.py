@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.areas import Scenario
-from trihex.errors import PlanError
+from trihex.errors import PlanError, check_type
 from trihex.plans.plan import Plan
-from trihex.record import Record, read_only
+from trihex.record import Record, counted, read_only
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,11 +38,18 @@ class Arrivals(Record):
     planner: str = ""
 
     def __post_init__(self) -> None:
+        check_type("scenario", self.scenario, Scenario)
         for name in ("arrival_step_of_robot", "time_of_robot"):
             values = np.ascontiguousarray(getattr(self, name), dtype=np.int64)
             if values.shape != (self.scenario.robot_count,):
                 raise PlanError(f"{name} must have an entry for each of {self.scenario.robot_count} robots")
             self._set(name, read_only(values))
+
+    def in_words(self) -> str:
+        """Return the planner, the area, how many robots arrive, steps and total time."""
+        arrive = f"{np.count_nonzero(self.arrived)} of {counted(self.scenario.robot_count, 'robot')} arrive"
+        times = f"{counted(self.steps, 'step')}, total time {self.total_time}"
+        return f"{self.planner!r}, {self.scenario.area.in_words()}, {arrive}, {times}"
 
     @property
     def arrived(self) -> NDArray[np.bool_]:
@@ -62,6 +69,7 @@ class Arrivals(Record):
 
 def make_arrivals(plan: Plan) -> Arrivals:
     """Return the arrivals of a plan."""
+    check_type("plan", plan, Plan)
     return Arrivals(
         plan.scenario, plan.arrival_step_of_robot, np.where(plan.arrived, plan.time_of_robot, 0), plan.planner
     )

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.areas import Scenario
-from trihex.errors import PlanError
+from trihex.errors import PlanError, check_type, is_whole
 from trihex.kernels.codes import JUMP, WAIT
-from trihex.record import Record, read_only
+from trihex.record import Record, counted, in_one_line, read_only
 
 if TYPE_CHECKING:
     from trihex.kernels.actions import Actions
@@ -59,6 +59,7 @@ class Plan(Record):
     jumps: NDArray[np.int64] = field(default_factory=lambda: _NO_JUMPS)
 
     def __post_init__(self) -> None:
+        check_type("scenario", self.scenario, Scenario)
         self._set("actions", read_only(np.ascontiguousarray(self.actions, dtype=np.uint8)))
         self._set("first_action", read_only(np.ascontiguousarray(self.first_action, dtype=np.int64)))
         self._set("jumps", read_only(np.ascontiguousarray(self.jumps, dtype=np.int64).reshape(-1, 2)))
@@ -82,6 +83,12 @@ class Plan(Record):
             raise PlanError("jumps must list every JUMP of actions in ascending order")
         if ((self.jumps[:, 1] < 0) | (self.jumps[:, 1] >= self.scenario.area.cell_count)).any():
             raise PlanError("jumps must lead to cells of the area")
+
+    def in_words(self) -> str:
+        """Return the planner, the area, how many robots arrive, steps and total time."""
+        arrive = f"{np.count_nonzero(self.arrived)} of {counted(self.scenario.robot_count, 'robot')} arrive"
+        times = f"{counted(self.steps, 'step')}, total time {self.total_time}"
+        return f"{self.planner!r}, {self.scenario.area.in_words()}, {arrive}, {times}"
 
     @cached_property
     def jump_tables(self) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
@@ -175,16 +182,52 @@ class Plan(Record):
             yield cells
             kernels.follow(actions, 0, site.size, step, step + 1, site)
 
+    def cells_of_robot(self, robot: int) -> NDArray[np.int64]:
+        """Return the path of a robot: numbers of its cells after step 0, 1, ... to its last action.
+
+        The last is its destination, if it arrives. (x, y) of them are ``area.cell_to_xy(cells)``.
+
+        Raises
+        ------
+        PlanError
+            If there is no such robot.
+
+        Examples
+        --------
+        >>> from trihex import Area, make_plan
+        >>> scenario = Scenario(Area("hexagonal", [[0, 0, 0, 0]]), destinations=(3, 0), robots=[(0, 0), (1, 0)])
+        >>> make_plan(scenario).cells_of_robot(1).tolist()
+        [1, 2, 3]
+        """
+        robots, layout = self.scenario.robot_count, self.scenario.area.layout
+        if not is_whole(robot) or not 0 <= robot < robots:
+            raise PlanError(f"robot must be one of 0..{robots - 1}, not {robot!r:.80}")
+        first, last = (int(index) for index in self.first_action[robot : robot + 2])
+        offset = layout.offset_of_direction.tolist()
+        jumps = dict(zip(*(table.tolist() for table in self.jump_tables), strict=True))
+        sites = [int(layout.cell_to_site(self.scenario.robots[robot : robot + 1])[0])]
+        for index, action in enumerate(self.actions[first:last].tolist(), first):
+            site = sites[-1]
+            if action == JUMP:
+                site = jumps[index]
+            elif action != WAIT:
+                site += offset[site & 1][action]
+            sites.append(site)
+        return layout.site_to_cell(np.array(sites, dtype=np.int32))
+
     def sets_at(self, step: int) -> RobotSets:
-        """Return the sets of the paper (section 2.1.1) in step 1, 2, ..., `steps`.
+        """Return the sets of the paper (section 2.1.1) in step 1, 2, ..., `steps` + 1.
+
+        In the step after the last nobody moves any more: `final` holds all robots that arrive, |final| = n, as the
+        paper ends.
 
         Raises
         ------
         PlanError
             If there is no such step.
         """
-        if not 1 <= step <= self.steps:
-            raise PlanError(f"step must be 1..{self.steps}, not {step}")
+        if not is_whole(step) or not 1 <= step <= self.steps + 1:
+            raise PlanError(f"step must be 1..{self.steps + 1}, the last of them after all is done, not {step!r:.80}")
         length = np.diff(self.first_action)
         is_final = self.arrived & (length < step)
         acts = length >= step
@@ -210,6 +253,9 @@ class RobotSets(NamedTuple):
     filled: NDArray[np.int64]
     waiting: NDArray[np.int64]
     final: NDArray[np.int64]
+
+    def __repr__(self) -> str:
+        return in_one_line(self)
 
 
 def plan_from_lists(scenario: Scenario, actions: list[list[int]], **names: Any) -> Plan:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from trihex.errors import check_type
 from trihex.fields import NScheme
 from trihex.kernels.codes import NOT_REACHED
 from trihex.plans.plan import Plan, actions_of
@@ -54,6 +55,9 @@ def make_playback(plan: Plan, n_scheme: NScheme) -> Playback:
     """
     from trihex.kernels.signatures import given
     from trihex.plans.kernels import playback as kernels
+
+    check_type("plan", plan, Plan)
+    check_type("n_scheme", n_scheme, NScheme)
 
     scenario, layout = plan.scenario, plan.scenario.area.layout
     start = layout.cell_to_site(scenario.robots)

@@ -15,9 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.areas import Area
+from trihex.errors import check_type
 from trihex.judging import Conflict, is_reachable
 from trihex.kernels.codes import LATE
-from trihex.record import Record
+from trihex.record import Record, counted
 from trihex.running.run import ARRIVED, BROKEN, GOING, LEFT, Run
 
 Ints = NDArray[np.int64]
@@ -30,6 +31,11 @@ class RunAudit(Record):
     run: Run
     conflicts: tuple[Conflict, ...]
     conflict_count: int
+
+    def in_words(self) -> str:
+        """Return how many conflicts there are, and the first."""
+        first = f", the first: {self.conflicts[0]}" if self.conflicts else ""
+        return counted(self.conflict_count, "conflict") + first
 
     @property
     def is_clean(self) -> bool:
@@ -64,6 +70,7 @@ def audit_run(run: Run, limit: int = 100) -> RunAudit:
     >>> audit_run(Trial(scenario, sensor=1).run()).is_clean
     True
     """
+    check_type("run", run, Run)
     found = [*_events(run), *(c for step in _steps(run) for judge in _JUDGES for c in judge(run, step)), *_ends(run)]
     found.sort(key=lambda conflict: conflict.step)
     return RunAudit(run, tuple(found[:limit]), len(found))

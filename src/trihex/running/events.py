@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from trihex.errors import ScenarioError, check_choice
 
@@ -115,9 +116,10 @@ class Occurrence:
         return not self.refusal
 
     @property
-    def changes(self) -> dict[str, tuple[int, ...]]:
-        """The cells that it changed, as `World.change` takes them."""
-        return {"blocked": self.blocked, "freed": self.freed, "opened": self.opened, "closed": self.closed}
+    def changes(self) -> dict[str, NDArray[np.int64]]:
+        """The cells that it changed, by number, as `World.change` and `LivingField.change` take them."""
+        cells = {"blocked": self.blocked, "freed": self.freed, "opened": self.opened, "closed": self.closed}
+        return {name: np.array(own, dtype=np.int64) for name, own in cells.items()}
 
     def __str__(self) -> str:
         return f"{self.event}, refused: {self.refusal}" if self.refusal else str(self.event)

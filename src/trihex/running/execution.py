@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from trihex.areas import Scenario, cells_from
-from trihex.errors import ExecutionError, check_choice
+from trihex.errors import ExecutionError, check_choice, check_many, check_number, check_type, is_whole
 from trihex.fields import LivingField, NScheme, Repair, field_kernels, make_n_scheme
 from trihex.kernels.codes import LATE, NOT_REACHED, WAIT
 from trihex.kernels.preparing import prepare
 from trihex.planners import PLANNERS
-from trihex.record import read_only
+from trihex.record import in_one_line, read_only
 from trihex.running.fleet import Fleet
 from trihex.running.replanning import Replanner
 from trihex.running.run import BROKEN, LEFT
@@ -39,6 +39,9 @@ class Orders(NamedTuple):
     step: int
     action_of_robot: NDArray[np.uint8]
     cell_of_robot: NDArray[np.int64]
+
+    def __repr__(self) -> str:
+        return in_one_line(self)
 
 
 class Execution:
@@ -95,7 +98,11 @@ class Execution:
         budget: float | None = None,
         n_scheme: NScheme | None = None,
     ) -> None:
+        check_type("scenario", scenario, Scenario)
+        check_type("n_scheme", n_scheme, NScheme, type(None))
         check_choice("planner of an execution", planner, dict.fromkeys((*STEPPERS, *PLANNERS)), ExecutionError)
+        if budget is not None:
+            check_number("budget, in seconds,", budget, 0, float("inf"), ExecutionError)
         check_choice("aside", aside, ASIDE, ExecutionError)
         #: What makes plans; None where robots go step by step.
         self.replanner = Replanner(planner, budget) if replan or planner not in STEPPERS else None
@@ -199,6 +206,7 @@ class Execution:
 
     def place(self, cell_of_robot: dict[int, tuple[int, int] | int]) -> None:
         """Correct where robots are that are not where they were sent; ExecutionError if a robot cannot be there."""
+        check_type("cell_of_robot", cell_of_robot, Mapping)
         self.fleet.place(cell_of_robot, self.field.blocked)
         self._forget_plan()
         self._arrive_on_the_spot()
@@ -229,7 +237,11 @@ class Execution:
         return self._done(order, self._stepper.step(self.steps_done, order, self.fleet))
 
     def _is_late(self, late: Iterable[int]) -> NDArray[np.bool_]:
-        is_late, numbers = np.zeros(self.fleet.size, dtype=bool), np.fromiter(late, dtype=np.int64)
+        check_many("late", late, int, "a list of the numbers of robots")
+        late = list(late)
+        if not all(map(is_whole, late)):
+            raise ExecutionError(f"late must name robots by their numbers, not {late!r:.80}")
+        is_late, numbers = np.zeros(self.fleet.size, dtype=bool), np.array(late, dtype=np.int64)
         if numbers.size and (numbers.min() < 0 or numbers.max() >= is_late.size):
             wrong = numbers[(numbers < 0) | (numbers >= is_late.size)][0]
             raise ExecutionError(f"late must name robots 0..{is_late.size - 1}, not {wrong}")

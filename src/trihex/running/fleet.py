@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.areas import Scenario, cells_from
-from trihex.errors import ExecutionError
+from trihex.errors import ExecutionError, is_whole
 from trihex.kernels.codes import LATE
 from trihex.running.run import ARRIVED, BROKEN, GOING, LEFT
 
@@ -69,7 +69,7 @@ class Fleet:
 
     def check_going(self, robot: int) -> None:
         """Raise ExecutionError unless there is such a robot and it is on its way."""
-        if not 0 <= robot < self.size:
+        if not is_whole(robot) or not 0 <= robot < self.size:
             raise ExecutionError(f"robot must be one of 0..{self.size - 1}, not {robot}")
         if self.state[robot] != GOING:
             words = {ARRIVED: "has arrived", LEFT: "has left", BROKEN: "has broken down"}
@@ -84,8 +84,7 @@ class Fleet:
 
     def join(self, cell: tuple[int, int] | int, blocked: NDArray[np.bool_]) -> int:
         """Add a robot and return its number; raises ExecutionError if its cell is blocked or holds a robot."""
-        cells = cells_from(self.area, np.array([cell], dtype=np.int64), "robot", ExecutionError)
-        (site,) = self.layout.cell_to_site(cells)
+        (site,) = self.layout.cell_to_site(self._one(cell, "robot"))
         if blocked[site]:
             raise ExecutionError(f"a robot must join on a free cell; {self._name_of(site)} is a barrier")
         if self.occupied[site]:
@@ -108,8 +107,8 @@ class Fleet:
         for robot in cell_of_robot:
             self.check_going(robot)
         robots = np.array(list(cell_of_robot), dtype=np.int64)
-        cells = cells_from(self.area, np.array(list(cell_of_robot.values())), "place", ExecutionError)
-        sites = self.layout.cell_to_site(cells)
+        cells = [self._one(cell, f"place of robot {robot}") for robot, cell in cell_of_robot.items()]
+        sites = self.layout.cell_to_site(np.concatenate([np.empty(0, dtype=np.int64), *cells]))
         others = self.site[np.setdiff1d(self.going, robots)]
         if blocked[sites].any() or np.unique(np.append(sites, others)).size < sites.size + others.size:
             raise ExecutionError("robots must be on distinct free cells")
@@ -148,6 +147,13 @@ class Fleet:
     def _robot_at(self, site: np.int32) -> int:
         """Return the robot that stands at a site which is occupied."""
         return int(np.flatnonzero((self.site == site) & self.is_going)[0])
+
+    def _one(self, cell: Any, parameter: str) -> NDArray[np.int64]:
+        """Return the number of the one cell that is named, shape (1,)."""
+        cells = cells_from(self.area, cell, parameter, ExecutionError)
+        if cells.size != 1:
+            raise ExecutionError(f"{parameter} must be one cell, not {cells.size}")
+        return cells
 
     def _name_of(self, site: np.int32) -> str:
         return self.area.name_of_cell(int(self.layout.site_to_cell(np.array([site]))[0]))

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.errors import PlanError
+from trihex.errors import PlanError, check_number, check_type, check_whole
 from trihex.kernels.codes import JUMP, LATE, WAIT
 from trihex.plans import Plan
 from trihex.record import Record, read_only
@@ -84,8 +84,9 @@ class PassingOrder(Record):
         >>> order.run().steps, order.run(delay=0.5, seed=1).steps
         (3, 10)
         """
-        if not 0 <= delay < 1:
-            raise PlanError(f"delay must be a number from 0 to below 1, not {delay!r}")
+        check_number("delay", delay, 0, 1, PlanError, below=True)
+        check_whole("seed", seed, 0, None, PlanError)
+        check_whole("most_steps", most_steps, 0, None, PlanError)
         follower = self.follow()
         rows: list[NDArray[np.uint8]] = []
         robots = self.plan.scenario.robot_count
@@ -186,6 +187,7 @@ def make_passing_order(plan: Plan) -> PassingOrder:
     PlanError
         If two robots are in one cell, pass one vertex, or exchange cells in a step, or a robot jumps.
     """
+    check_type("plan", plan, Plan)
     if (plan.actions == JUMP).any():
         raise PlanError("a plan in which robots jump has no order of passing")
     scenario, capacity = plan.scenario, plan.scenario.destination_capacity

@@ -9,10 +9,11 @@ from typing import Any
 import numpy as np
 
 from trihex.bounds import LowerBound, make_lower_bound
+from trihex.errors import check_type
 from trihex.fields import make_n_scheme
 from trihex.planners import make_plan
 from trihex.plans import Plan
-from trihex.record import Record
+from trihex.record import Record, counted, html_table
 from trihex.running.audit import RunAudit, audit_run
 from trihex.running.run import BROKEN, GOING, LEFT, Run
 
@@ -38,6 +39,15 @@ class RunReport(Record):
     reference: Plan
     bound: LowerBound
     seconds: tuple[float, ...] = ()
+
+    def in_words(self) -> str:
+        """Return the words of the run, the price of what it did not know, and the conflicts."""
+        price = "no price" if self.price is None else f"price {100 * self.price:.1f} %"
+        return f"{self.run.in_words()}, {price}, {counted(self.audit.conflict_count, 'conflict')}"
+
+    def _repr_html_(self) -> str:
+        """Return the numbers as a table, for notebooks."""
+        return html_table([self.as_dict()])
 
     @property
     def price(self) -> float | None:
@@ -112,6 +122,8 @@ def make_run_report(run: Run, *, reference: Plan | str = "fcost", seconds: Seque
     >>> report.price, report.audit.is_clean
     (0.0, True)
     """
+    check_type("run", run, Run)
+    check_type("reference", reference, Plan, str)
     n_scheme = make_n_scheme(run.scenario)
     if isinstance(reference, str):
         reference = make_plan(run.scenario, reference, n_scheme=n_scheme)

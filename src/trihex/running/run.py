@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from trihex.areas import Scenario, World
 from trihex.kernels.codes import LATE, WAIT
-from trihex.record import Record, read_only
+from trihex.record import Record, counted, read_only
 from trihex.running.events import Occurrence
 from trihex.running.sensing import Sensor
 
@@ -74,6 +74,14 @@ class Run(Record):
         for name in ("robots", "joined", "ended", "state_of_robot", "actions", "known_since", "cut_off_since"):
             self._set(name, read_only(getattr(self, name)))
         self._set("touched", read_only(self.touched))
+
+    def in_words(self) -> str:
+        """Return the planner, the area, how many robots arrived, steps, total time and events."""
+        arrived = f"{np.count_nonzero(self.arrived)} of {counted(self.robots.size, 'robot')} arrived"
+        times = (
+            f"{counted(self.steps, 'step')}, total time {self.total_time}, {counted(len(self.occurrences), 'event')}"
+        )
+        return f"{self.planner!r}, {self.scenario.area.in_words()}, {arrived}, {times}"
 
     @property
     def steps(self) -> int:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.areas import Tessellation
-from trihex.errors import ScenarioError
+from trihex.errors import ScenarioError, check_type
 from trihex.record import Record, read_only
 
 MOST = 100.0
@@ -45,6 +45,7 @@ class Sensor(Record):
     line_of_sight: bool = False
 
     def __post_init__(self) -> None:
+        check_type("tessellation", self.tessellation, Tessellation)
         is_number = isinstance(self.radius, int | float | np.number) and not isinstance(self.radius, bool)
         if not is_number or not 0 <= self.radius <= MOST:
             raise ScenarioError(f"sensing radius must be a number from 0 to {MOST:g}, not {self.radius!r:.80}")

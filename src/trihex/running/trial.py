@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.areas import Area, Scenario, World
-from trihex.errors import ExecutionError, ScenarioError
+from trihex.errors import ExecutionError, ScenarioError, check_many, check_number, check_type, check_whole
 from trihex.fields import Repair
 from trihex.kernels.codes import LATE, WAIT
 from trihex.running.changes import cell_at, changes_of
@@ -68,8 +68,13 @@ class Trial:
         delay: float = 0.0,
         seed: int = 0,
     ) -> None:
-        if not 0 <= delay < 1:
-            raise ExecutionError(f"delay must be a number from 0 to below 1, not {delay!r}")
+        check_type("scenario", scenario, Scenario)
+        check_number("delay", delay, 0, 1, ExecutionError, below=True)
+        check_whole("seed", seed, 0, None, ExecutionError)
+        check_many("events", events, Event, "a list of events, such as those of read_events")
+        events = list(events)
+        for number, event in enumerate(events):
+            check_type(f"events[{number}]", event, Event)
         if sensor is not None and not isinstance(sensor, Sensor):
             sensor = Sensor(scenario.area.tessellation, sensor)
         self.scenario, self.planner, self.sensor, self.delay, self.seed = scenario, planner, sensor, delay, seed
@@ -150,6 +155,7 @@ class Trial:
         progress : callable, optional
             Called with (robots arrived, robots) now and then.
         """
+        check_whole("most_steps", most_steps, 0, None, ExecutionError)
         while not self.is_over and self.steps_done < most_steps:
             self.step()
             if progress is not None and self.steps_done % 16 == 0:
@@ -285,6 +291,7 @@ def resume_trial(run: Run, events: Iterable[Event] = (), **options: Any) -> Tria
     What happened is done again, without asking the planner; `events` are those still to come, `options` those of the
     trial: aside, replan and budget. (Robots that follow plans make a new one, and may then go on in another way.)
     """
+    check_type("run", run, Run)
     past = [occurrence.event for occurrence in run.occurrences]
     options |= {"sensor": run.sensor, "delay": run.delay, "seed": run.seed}
     trial = Trial(run.scenario, run.planner, events=[*past, *events], **options)

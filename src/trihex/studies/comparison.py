@@ -12,12 +12,12 @@ import numpy as np
 
 from trihex.areas import Area, Scenario, Tessellation
 from trihex.bounds import LowerBound, make_lower_bound
-from trihex.errors import TooLargeError
+from trihex.errors import TooLargeError, check_many, check_type
 from trihex.fields import field_kernels, make_n_scheme
 from trihex.judging import Report, audit_plan, make_report
 from trihex.kernels.preparing import prepare
 from trihex.planners import make_plan, planner_from
-from trihex.record import Record
+from trihex.record import Record, counted, html_table
 
 Wanted = tuple[str, dict[str, Any]]  # a planner and its options
 
@@ -54,6 +54,16 @@ class Comparison(Record):
     """
 
     entries: tuple[Entry, ...]
+
+    def in_words(self) -> str:
+        """Return how many scenarios and plans there are, and by which planners."""
+        scenarios = len({id(entry.scenario) for entry in self.entries})
+        planners = ", ".join(dict.fromkeys(entry.planner for entry in self.entries))
+        return f"{counted(scenarios, 'scenario')}, {counted(len(self.entries), 'plan')} by {planners or 'nobody'}"
+
+    def _repr_html_(self) -> str:
+        """Return the rows as a table, for notebooks."""
+        return html_table(self.rows())
 
     def _reference(self, scenario: Scenario) -> LowerBound:
         """Return the best lower bound; its name is "optimum" if some plan attains it, proven by a planner or not."""
@@ -134,12 +144,18 @@ def make_comparison(
     >>> [(row["planner"], row["gap"], row["is_proven"]) for row in make_comparison([scenario], ["greedy"]).rows()]
     [('greedy', 0.0, True)]
     """
+    check_many("scenarios", scenarios, Scenario, "a list of scenarios")
+    if isinstance(planners, str):
+        planners = [planners]
+    check_many("planners", planners, str, "names of planners, or a mapping from names to their options")
+    scenarios = list(scenarios)
+    for number, scenario in enumerate(scenarios):
+        check_type(f"scenarios[{number}]", scenario, Scenario)
     wanted: dict[str, Wanted] = {}
     for label in planners:
         name, options = planner_from(label)
         wanted[label] = (name, {**options, **(planners[label] if isinstance(planners, Mapping) else {})})
         _try(*wanted[label])
-    scenarios = list(scenarios)
     shapes = {field_kernels(scenario.area.tessellation, scenario.corners) for scenario in scenarios}
     prepare(*(name for name, _ in wanted.values()), "audit", "bound", *shapes)
     entries: list[Entry] = []
@@ -150,6 +166,8 @@ def make_comparison(
 
 def on_tessellations(scenario: Scenario, names: Iterable[str]) -> list[Scenario]:
     """Return `scenario` with its cells, barriers, robots, costs and rules on each of the tessellations named."""
+    check_type("scenario", scenario, Scenario)
+    check_many("names", names, Scenario, "a list of names of tessellations")
     area = scenario.area
     shapes = [replace(area.tessellation, name=name) for name in names]
     return [replace(scenario, area=area.with_tessellation(shape)) for shape in shapes]

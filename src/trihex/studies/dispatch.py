@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from queue import SimpleQueue
 from typing import Any, Protocol
 
-from trihex.errors import StudyError
+from trihex.errors import StudyError, check_many
 from trihex.files import check_output
 from trihex.studies.journal import Journal
 from trihex.studies.results import check_results, write_results
@@ -149,6 +149,7 @@ def _study_from(table: Study | str | os.PathLike[str] | Iterable[Mapping[str, An
         return table
     if isinstance(table, str | os.PathLike):
         return read_study(table)
+    check_many("table", table, Mapping, "a study, the path of a study file, or a list of runs")
     return make_study(table)
 
 

@@ -12,12 +12,12 @@ from pathlib import Path
 from typing import Any
 
 from trihex.areas import Scenario
-from trihex.errors import FormatError, PlanError, StudyError, TrihexError
+from trihex.errors import FormatError, PlanError, StudyError, TrihexError, check_type
 from trihex.files import read_bytes
 from trihex.formats import complaint, read_toml
 from trihex.formats.schema import check_document
 from trihex.planners import planner_from
-from trihex.record import Record
+from trihex.record import Record, counted
 from trihex.studies.case import read_area_of, try_planner
 from trihex.studies.grid import Grid, variants_of
 from trihex.studies.row import hash_of_scenario, versions
@@ -60,6 +60,10 @@ class Study(Record):
     seconds: float | None = None
     memory: int | None = None
     name: str = ""
+
+    def in_words(self) -> str:
+        """Return the name and how many runs there are."""
+        return f"{self.name!r}, {counted(len(self), 'run')}"
 
     def __len__(self) -> int:
         return len(self.trials)
@@ -108,6 +112,7 @@ def make_study(runs: Iterable[Mapping[str, Any]], folder: str | os.PathLike[str]
     cases, mistakes, digest = [], [], hashlib.sha256(versions()["trihex"].encode())
     check = _Check(Path(folder))
     for i, run in enumerate(runs):
+        check_type(f"run {i}", run, Mapping, error=StudyError)
         wanted = {name: value for name, value in run.items() if name != "scenario"}
         given = run.get("scenario")
         document = {AXES.get(name, name): value if name == "bound" else [value] for name, value in wanted.items()}

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from trihex.areas import GENERATORS, Area, Scenario, random_robots
 from trihex.bounds import distance_bound, make_lower_bound, slot_bound
-from trihex.errors import FormatError, TooLargeError, TrihexError, check_choice
+from trihex.errors import FormatError, TooLargeError, TrihexError, check_choice, check_type
 from trihex.fields import distance_generations, make_d_scheme
 from trihex.files import read_bytes
 from trihex.formats import FORMATS, Draft, draft_of, format_of, read_draft, read_plan, read_starts
@@ -76,6 +76,7 @@ class Desk:
 
     def show(self, record: Area | Scenario | Draft | Plan) -> Bundle:
         """Return what a page shows of a record, as the result of "open" does."""
+        check_type("record", record, Area, Scenario, Plan, Draft)
         if isinstance(record, Plan):
             return self._shown(record, {}, Call({}, lambda _: None, lambda: False))
         if isinstance(record, Scenario):

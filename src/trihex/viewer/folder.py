@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from trihex.errors import FormatError
+from trihex.errors import FormatError, check_path
 from trihex.files import MAX_BYTES, read_bytes
 from trihex.formats import FORMATS, WRITERS, check_text, format_of
 from trihex.formats.areas.ros import parse_yaml
@@ -41,6 +41,7 @@ class Folder:
     """
 
     def __init__(self, root: str | os.PathLike[str]) -> None:
+        check_path(root, "folder")
         self.root = Path(os.path.realpath(root, strict=True))
 
     def resolve(self, name: str, base: Path | None = None) -> Path:

@@ -7,6 +7,7 @@ import webbrowser
 from collections.abc import Callable
 
 from trihex.areas import Area, Scenario
+from trihex.errors import ArgumentError, check_whole
 from trihex.formats import Draft
 from trihex.plans import Plan
 from trihex.viewer.desk import Desk
@@ -44,6 +45,7 @@ def open_viewer(
     OSError
         If there is no such folder, or the port is taken.
     """
+    check_whole("port", port, 0, 65535, ArgumentError)
     desk = Desk(Folder(folder))
     viewing = make_viewing(desk, None if record is None else desk.show(record), port=port)
     tell(viewing.address)

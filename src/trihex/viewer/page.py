@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from trihex.errors import check_type
 from trihex.fields import make_n_scheme
 from trihex.files import new_file, suffix_of
 from trihex.judging import Report, make_report
@@ -93,6 +94,8 @@ def write_page(plan: Plan, path: str | os.PathLike[str], *, beside: Plan | None 
     OSError
         If the file cannot be written.
     """
+    check_type("plan", plan, Plan)
+    check_type("beside", beside, Plan, type(None))
     write_report_page(make_report(plan), path, None if beside is None else make_report(beside))
 
 

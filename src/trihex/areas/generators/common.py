@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.areas.area import MAX_CELLS, Area
-from trihex.areas.tessellation import Tessellation
+from trihex.areas.tessellation import Tessellation, tessellation_from
 from trihex.errors import AreaError, check_whole
 
 
@@ -14,8 +14,7 @@ def begin_area(
     tessellation: Tessellation | str, height: int, width: int, seed: int
 ) -> tuple[Tessellation, np.random.Generator]:
     """Return the tessellation and what draws random numbers, or raise AreaError."""
-    if isinstance(tessellation, str):
-        tessellation = Tessellation(tessellation)
+    tessellation = tessellation_from(tessellation)
     check_whole("height", height, 1, None, AreaError)
     check_whole("width", width, 1, None, AreaError)
     if height * width > MAX_CELLS:

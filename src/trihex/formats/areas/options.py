@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from numbers import Real
 
-from trihex.areas import Covering, Tessellation
+from trihex.areas import Covering, Tessellation, tessellation_from
 from trihex.errors import FormatError, check_choice
 from trihex.record import Record
 
@@ -47,13 +48,13 @@ class AreaOptions(Record):
     resolution: float | None = None
 
     def __post_init__(self) -> None:
-        if isinstance(self.tessellation, str):
-            self._set("tessellation", Tessellation(self.tessellation))
+        self._set("tessellation", tessellation_from(self.tessellation))
         check_choice("unknown", self.unknown, UNKNOWNS, FormatError)
-        if not 0 <= self.threshold <= 1:
-            raise FormatError(f"threshold must be between 0 and 1, not {self.threshold:g}")
-        if self.resolution is not None and not 1e-9 <= self.resolution <= 1e9:
-            raise FormatError(f"resolution must be between 1e-9 and 1e9 metres, not {self.resolution:g}")
+        if not isinstance(self.threshold, Real) or not 0 <= self.threshold <= 1:
+            raise FormatError(f"threshold must be between 0 and 1, not {self.threshold!r:.80}")
+        if self.resolution is not None:
+            if not isinstance(self.resolution, Real) or not 1e-9 <= self.resolution <= 1e9:
+                raise FormatError(f"resolution must be between 1e-9 and 1e9 metres, not {self.resolution!r:.80}")
 
     def covering_of(self, path: object, kind: str) -> Covering:
         """Return how to cover a place that is measured in metres; raise FormatError if there is no cell size."""

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
-from trihex.errors import FormatError, TrihexError, check_choice
+from trihex.errors import FormatError, TrihexError, check_choice, check_many
 from trihex.files import new_file, suffix_of
 from trihex.formats.schema import Table, check_document, choice
 from trihex.formats.text import Text, read_text
@@ -118,6 +118,7 @@ def _event_of(row: dict[str, str]) -> Event:
 
 def write_events(events: tuple[Event, ...], path: str | os.PathLike[str]) -> None:
     """Write events as CSV."""
+    check_many("events", events, Event, "a list of events")
     suffix_of(path, SUFFIXES[:1], "events")
     with new_file(path) as part, open(Path(part), "w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")

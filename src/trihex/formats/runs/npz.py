@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.errors import FormatError
+from trihex.errors import FormatError, check_type
 from trihex.files import read_bytes
 from trihex.formats.archive import Entries, pack, unpack
 from trihex.formats.scenarios.arrays import SCENARIO_ENTRIES, scenario_arrays, scenario_from
@@ -44,6 +44,7 @@ _ENTRIES: Entries = {
 
 def write_run(run: Run, path: str | os.PathLike[str], *, progress: Callable[[int, int], None] | None = None) -> None:
     """Write a run with all that is needed to judge it or to go on; the same run gives the same bytes."""
+    check_type("run", run, Run)
     events, refusals, changes = [], [], []
     for number, one in enumerate(run.occurrences):
         event = one.event

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.areas import Area
-from trihex.errors import AreaError, FormatError
+from trihex.errors import AreaError, FormatError, check_type
 from trihex.files import new_file
 from trihex.formats.registry import STARTS_HEADER, STARTS_HEADER_IN_METRES
 from trihex.formats.table import check_inside, parse_table
@@ -56,6 +56,7 @@ def _parse_metres(text: Text, path: str | os.PathLike[str], area: Area) -> NDArr
 
 def write_starts(area: Area, robots: NDArray[np.int64], path: str | os.PathLike[str]) -> None:
     """Write the cells of robots, given by number."""
+    check_type("area", area, Area)
     x, y = area.cell_to_xy(robots)
     rows = [f"{one},{other}" for one, other in zip(x.tolist(), y.tolist(), strict=True)]
     with new_file(path) as part:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.areas import Area
+from trihex.errors import check_type
 from trihex.files import read_bytes
 from trihex.formats.recognise import format_of
 from trihex.formats.registry import FORMATS
@@ -32,6 +33,7 @@ def read_starts(path: str | os.PathLike[str], area: Area) -> NDArray[np.int64]:
     OSError
         If the file cannot be read.
     """
+    check_type("area", area, Area)
     content = read_bytes(path)
     form = FORMATS[format_of(content, path)]
     if form.holds != "starts":

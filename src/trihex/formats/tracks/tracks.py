@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from numbers import Real
 
 import numpy as np
 from numpy.typing import NDArray
@@ -86,7 +87,7 @@ def make_tracks(plan: Plan, speed: float = 1.0) -> Tracks:
     FormatError
         If the speed is not above 0, or a robot jumps.
     """
-    if not 0 < speed < float("inf"):
+    if not isinstance(speed, Real) or not 0 < speed < float("inf"):
         raise FormatError(f"speed must be above 0 metres in a second, not {speed!r}")
     if plan.jumps.size:
         at = int(plan.jumps[0, 0])
