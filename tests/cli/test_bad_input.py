@@ -40,7 +40,7 @@ CASES = {
     "ragged map": (MAP.replace("\n.@..", "\n.@."), ["plan", "bad", *AIM], "bad: ragged rows: row 1 has 3 letters, it must have 4"),
     "ragged letters": ("..D\n....\n", ["plan", "bad"], "bad: ragged rows: row 1 has 4 letters, it must have 3"),
     "unknown letter": (MAP.replace("@", "x"), ["plan", "bad", *AIM], "bad: row 1, column 1: unknown letter 'x'; known are . G S E (free) and @ O T W (barriers)"),
-    "letter of no alphabet": ("..D\n.é.\n", ["plan", "bad"], "bad: row 1, column 1: unknown letter 'é'; known are . (free), B (barrier), D (destination), a to z (robots)"),
+    "letter of no alphabet": ("..D\n.é.\n", ["plan", "bad"], "bad: row 1, column 1: unknown letter 'é'; known are . (free), B or # (barrier), D (destination), a to z (robots)"),
     "one robot twice": ("a.D\n..a\n", ["plan", "bad"], "bad: robot 'a' must stand in one cell, not in (0, 0) and (2, 1)"),
     "claim of 1 GB": (MAP.replace("3", "1000000000"), ["plan", "bad", *AIM], "bad: truncated: height 1000000000 and width 4 promise 4000000000 cells (at most 2000000000), but the rows take only 15 bytes"),
     "claim beyond all numbers": (MAP.replace("3", "9" * 50), ["plan", "bad", *AIM], f"bad: line 2: height must be a whole number from 1, not '{'9' * 40}'"),

@@ -74,7 +74,7 @@ CASES = {
     "unknown type": (GEOJSON.replace("Polygon", "Polygone"), BAD, "bad: feature 0: type must be one of *, not 'Polygone'; did you mean 'Polygon'?"),
     "open ring": (GEOJSON.replace(", [0, 0]]", "]"), BAD, "bad: feature 0: is no Polygon: a ring must end where it begins"),
     "ring in words": (GEOJSON.replace("[9, 0]", '["nine", 0]'), BAD, "bad: feature 0: is no Polygon: coordinates must be finite numbers in lists as deep as its type asks for"),
-    "ring that crosses itself": (GEOJSON.replace("[9, 0], [9, 6]", "[9, 6], [9, 0]"), BAD, "bad: a Polygon is invalid: Self-intersection"),
+    "ring that crosses itself": (GEOJSON.replace("[9, 0], [9, 6]", "[9, 6], [9, 0]"), BAD, "bad: feature 0: a Polygon is invalid: Self-intersection"),
     "nothing free": (GEOJSON.replace('"free"', '"obstacle"'), BAD, "bad: there must be a polygon that is free; there is none with an area"),
     "WKT cut short": ("POLYGON ((0 0, 9 0", BAD, "bad: is no WKT: *end of stream"),
     "WKT with curves": ("CURVEPOLYGON (CIRCULARSTRING (0 0, 4 0, 4 4, 0 4, 0 0))", ["plan", "bad.wkt", *SIZE, *AIM, *ROBOTS], "bad.wkt: is no WKT: *"),
