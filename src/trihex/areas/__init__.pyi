@@ -3,6 +3,11 @@ from .area import (
     Area as Area,
     cells_from as cells_from,
 )
+from .claim import (
+    Claim as Claim,
+    check_possible as check_possible,
+    claimed as claimed,
+)
 from .coverage import (
     Covering as Covering,
     cover_polygons as cover_polygons,

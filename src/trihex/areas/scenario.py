@@ -87,12 +87,18 @@ class Scenario(Record):
             check_rules(area.tessellation, area.frame, self.crossing, self.destination_capacity)
         for parameter, one in (("destinations", "destination"), ("robots", "robot")):
             cells = cells_from(area, getattr(self, parameter), parameter, ScenarioError)
-            _check_free(area, cells, one)
+            self._check_free(cells, one)
             self._set(parameter, read_only(np.array(cells)))
         if self.destinations.size == 0:
             raise ScenarioError("destinations must name at least one cell")
         self._set("destinations", read_only(_without_repeats(self.destinations)))
-        _check_distinct(area, self.robots)
+        self._check_distinct()
+
+    def _check_free(self, cells: NDArray[np.int64], one: str) -> None:
+        _check_free(self.area, cells, one)
+
+    def _check_distinct(self) -> None:
+        _check_distinct(self.area, self.robots)
 
     @property
     def robot_count(self) -> int:

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any, Literal, overload
 
-from trihex.areas import Scenario
+from trihex.areas import Scenario, check_possible
 from trihex.errors import PlanError, check_choice
 from trihex.fields import NScheme, make_n_scheme
 from trihex.plans import Arrivals, Plan, make_arrivals
@@ -101,6 +101,8 @@ def make_plan(
     ------
     PlanError
         If there is no such planner, record or option of the planner, or `n_scheme` belongs to another scenario.
+    ScenarioError
+        If the scenario is but claimed by a plan in a file (`read_plan` with `for_judge`), and impossible.
 
     Examples
     --------
@@ -109,6 +111,7 @@ def make_plan(
     >>> make_plan(scenario, "greedy").time_of_robot
     array([30, 20])
     """
+    check_possible(scenario)
     plan = planner_named(planner)
     check_choice("record", record, RECORDS, PlanError)
     known = options_of(planner)
