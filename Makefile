@@ -14,10 +14,10 @@ else
   INSTALL = $(BIN)/python -m pip install --quiet --disable-pip-version-check
 endif
 
-.PHONY: help demo test lint bench docs figures studies golden clean
+.PHONY: help demo test test-all lint bench docs figures studies golden clean
 help:
 	@echo "make demo    plan with every planner on three tessellations; a table, a picture and an animation in demo/"
-	@echo "make test    all tests"
+	@echo "make test    all tests, on few cases each: minutes; make test-all on all cases, as in CI"
 	@echo "make lint    ruff, mypy and import-linter"
 	@echo "make bench   speed, as ratios against other libraries"
 	@echo "make docs    the documentation in build/docs; make figures draws its pictures anew"
@@ -42,8 +42,12 @@ $(VENV)/.docs: pyproject.toml $(VENV)/.user
 demo: $(VENV)/.user
 	$(BIN)/trihex demo --out demo
 
+# How many cases tests try says TRIHEX_SWEEPS (tests/sweeps.py).
 test: $(VENV)/.dev
 	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal
+
+test-all: $(VENV)/.dev
+	TRIHEX_SWEEPS=full $(BIN)/python -m pytest -n $(JOBS) --dist worksteal
 
 lint: $(VENV)/.dev
 	$(BIN)/ruff check src tests benchmarks examples

@@ -234,9 +234,10 @@ def draw(rows: list[Row]) -> None:
         "a robot's step: robots n, cells b": ("fcost, a robot",),
         "whole plans: steps K": ("fcost, a plan in K",),
         "whole plans: robots n": ("a plan, one", "fcost, a plan, one"),
-        "crowds on 2048 x 2048 cells, 200 destinations: robots n": ("greedy, crowds", "fcost, crowds"),
+        "crowds on 2048 x 2048 cells, 200 exits: robots n": ("greedy, crowds", "fcost, crowds"),
     }
-    figure, axes = pyplot.subplots(2, 4, figsize=(14.5, 7.2), layout="constrained")
+    # As wide as a page of 820 pixels at 100 an inch, so that letters are seen at the size that they have here.
+    figure, axes = pyplot.subplots(4, 2, figsize=(8.2, 15.0), layout="constrained")
     for ax, (title, starts) in zip(axes.flat, panels.items(), strict=False):
         units = set()
         for (what, variable, _, who, unit), (sizes, results) in curves(rows).items():
@@ -246,15 +247,15 @@ def draw(rows: list[Row]) -> None:
                 units.add("seconds" if unit == "s" else f"{unit} (dashed)")
         if title.startswith("a robot's step"):
             ax.set_ylim(1e-8, 1e-5)  # so that noise looks as small as it is
-        ax.set_title(title, fontsize=9)
-        ax.set_ylabel(" or ".join(sorted(units)), fontsize=7)
-        ax.tick_params(labelsize=7)
+        ax.set_title(title, fontsize=10.5)
+        ax.set_ylabel(" or ".join(sorted(units)), fontsize=9)
+        ax.tick_params(labelsize=9)
         for axis in (ax.xaxis, ax.yaxis):
             axis.set_minor_formatter(ticker.NullFormatter())
         ax.grid(alpha=0.3)
-        ax.legend(fontsize=6, loc="upper center", bbox_to_anchor=(0.5, -0.12), frameon=False)
+        ax.legend(fontsize=9, loc="upper center", bbox_to_anchor=(0.5, -0.1), frameon=False)
     axes.flat[-1].set_axis_off()
-    figure.savefig(FIGURE, dpi=110, metadata={"Software": None})
+    figure.savefig(FIGURE, dpi=150, metadata={"Software": None})
 
 
 def main(options: list[str]) -> None:

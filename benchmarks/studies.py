@@ -101,7 +101,7 @@ def dask_cluster() -> object:
     """Return a Dask cluster of two processes."""
     from distributed import LocalCluster
 
-    return LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None)
+    return LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address="127.0.0.1:0")
 
 
 def is_worker(process: psutil.Process) -> bool:

@@ -1,5 +1,6 @@
 """Configuration of the documentation: sphinx with MyST (Markdown), furo, and the API from the docstrings."""
 
+import re
 import sys
 from importlib import import_module
 from pathlib import Path
@@ -105,6 +106,11 @@ def keep_colons(app, what, name, value, options, lines):
         lines[:0] = [".. (a comment)", ""]
 
 
+def open_navigation(app, docname, source):
+    """Uncover what is for sphinx alone and stands in comments, so that plain Markdown does not show it."""
+    source[0] = re.sub(r"<!-- navigation.*\n([\s\S]*?)^-->$", r"\1", source[0], flags=re.MULTILINE)
+
+
 def colour_examples(app, doctree):
     """Colour examples (>>>) in indented blocks, whose language Markdown does not tell."""
     for block in doctree.findall(nodes.literal_block):
@@ -115,6 +121,7 @@ def colour_examples(app, doctree):
 def setup(app):
     """Make the directives known to sphinx."""
     app.connect("autodoc-process-docstring", keep_colons, priority=400)
+    app.connect("source-read", open_navigation)
     app.connect("doctree-read", colour_examples)
     app.add_directive("public-names", PublicNames)
     app.add_directive("planners", Planners)

@@ -57,7 +57,8 @@ def page():
         parts.append("\n")
     parts.append("## [Command line](command-line.md)\n`trihex --help` lists all commands.\n\n")
     pages = "\n".join([*TITLES, "command-line"])
-    parts.append(f"```{{toctree}}\n:hidden:\n:maxdepth: 1\n\n{pages}\n```\n")
+    toctree = f"```{{toctree}}\n:hidden:\n:maxdepth: 1\n\n{pages}\n```\n"
+    parts.append(f"<!-- navigation, which docs/conf.py opens for sphinx\n{toctree}-->\n")
     return "".join(parts)
 
 

@@ -2,15 +2,17 @@
 
 import re
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from PIL import Image
 
 import trihex as th
-from trihex.pictures.palette import BARRIER, FREE, INK, PAGE, Colour
-from trihex.pictures.scene import Mark, Scene, Texts, ink_on
+from trihex.kernels.codes import WAIT
+from trihex.pictures.palette import BARRIER, FREE, INK, MOVING, PAGE, SERIES, Colour
+from trihex.pictures.scene import Discs, Key, Lines, Mark, Scene, Texts, ink_on
 
 FIGURES = Path(__file__).parent.parent / "docs" / "figures"
 
@@ -39,6 +41,36 @@ def side_by_side(pictures: Iterable[th.Picture], columns: int, gap: int = 4) -> 
     size = f'width="{right - gap}" height="{top - gap}" viewBox="0 0 {right - gap} {top - gap}"'
     page = f'<rect width="100%" height="100%" fill="#{bytes(PAGE).hex()}"/>'
     return f'<svg xmlns="http://www.w3.org/2000/svg" {size}>\n{page}\n' + "".join(parts) + "</svg>\n"
+
+
+def in_a_row(pictures: Iterable[th.Picture], gap: int = 4) -> Image.Image:
+    """Return one image with the pictures side by side, their lower edges level."""
+    images = [picture.to_array() for picture in pictures]
+    high = max(image.shape[0] for image in images)
+    sides = [((high - image.shape[0], 0), (0, gap), (0, 0)) for image in images]
+    page = np.hstack([np.pad(image, side, constant_values=255) for image, side in zip(images, sides, strict=True)])
+    return Image.fromarray(page).quantize(255, dither=Image.Dither.NONE)
+
+
+def picture_of_step(plan: th.Plan, step: int, breaking: Collection[int], words: str, width: int = 420) -> th.Picture:
+    """Return a picture of the robots before a step and of their moves in it; those `breaking` a rule are red."""
+    scenario, area = plan.scenario, plan.scenario.area
+    scene = th.picture_of_area(scenario.with_robots([]), width=width).scene
+    marks, red = list(scene.marks), SERIES[1]
+    cells = list(plan.cells_by_step())[step - 1]
+    for robot in np.flatnonzero(cells >= 0).tolist():
+        colour = red if robot in breaking else MOVING
+        x, y = area.tessellation.centre_of_cell(*area.cell_to_xy(cells[[robot]]))
+        first, end = plan.first_action[robot : robot + 2]
+        action = plan.actions[first + step - 1] if first + step <= end else WAIT
+        if action != WAIT:
+            way = area.tessellation.step_of_direction[0, action]  # of squares
+            here, side = np.array([x[0], y[0]]), 0.1 * np.array([-way[1], way[0]])
+            tip, neck = here + 0.76 * way, here + 0.66 * way
+            marks.append(Lines((np.array([here, tip, neck + side, tip, neck - side]),), 5.0, colour))
+        marks += [Discs(x, y, 0.27, colour), Texts(x, y, (str(robot),), round(0.34 * scene.scale), PAGE)]
+    legend = (*scene.legend, Key("disc", MOVING, "robot"), Key("disc", red, "breaks a rule"))
+    return th.Picture(replace(scene, marks=tuple(marks), title=f"Step {step}", subtitle=words, legend=legend))
 
 
 def labelled(

@@ -19,4 +19,5 @@ for x, y in exits:
 arrivals = np.sort(plan.arrival_step_of_robot)
 print(f"half are out after {arrivals[75]} steps, all after {report.steps}")
 print(f"waiting: {report.total_waiting / report.total_time:.0%} of the total time; gap at most {report.gap:.1%}")
-th.write_animation(plan, folder / "evacuation.gif", width=320, max_frames=60, legend=False)
+title = "150 persons, three exits"
+th.write_animation(plan, folder / "evacuation.gif", width=340, max_frames=60, title=title)

@@ -3,6 +3,8 @@
 import sys
 from pathlib import Path
 
+from examples.drawing import picture_of_step
+
 import trihex as th
 from trihex.kernels.codes import WAIT
 from trihex.plans import plan_from_lists
@@ -23,4 +25,7 @@ audit = th.audit_plan(plan_from_lists(scenario, actions))
 print("clean" if audit.is_clean else f"{audit.conflict_count} conflicts")
 for conflict in audit.conflicts:
     print(f"{conflict.kind:9} {conflict}")
-th.picture_of_area(scenario, width=300).save(folder / "judge.png")
+
+found = [conflict for conflict in audit.conflicts if conflict.step == 1]
+words = "; ".join(conflict.text for conflict in found)
+picture_of_step(audit.plan, 1, {robot for one in found for robot in one.robots}, words).save(folder / "judge.png")

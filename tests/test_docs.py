@@ -17,6 +17,8 @@ from PIL import Image
 
 import trihex as th
 from trihex.cli import main
+from trihex.formats import WRITERS
+from trihex.planners import PLANNERS
 
 ROOT = Path(__file__).parent.parent
 DOCS = sorted((ROOT / "docs").rglob("*.md"))
@@ -153,7 +155,7 @@ def test_a_page_with_a_mistake_fails(tmp_path, monkeypatch):
 @pytest.mark.parametrize("path", SCRIPTS, ids=name_of)
 def test_every_example_runs_and_leaves_its_picture(path, tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(sys, "argv", [path.name, str(tmp_path)])
-    runpy.run_path(str(path), run_name="__main__")
+    runpy.run_module(f"examples.{path.stem}", run_name="__main__")  # as the gallery says
     assert capsys.readouterr().out.strip()
     made = {file.name for file in tmp_path.iterdir()}
     assert made & {f"{path.stem}{ending}" for ending in (".png", ".gif", ".svg")}
@@ -231,7 +233,26 @@ def test_every_page_is_in_the_navigation_and_every_public_name_in_the_reference(
     assert sorted(packages) == sorted(homes), "name the package on a page of docs/api"
 
 
+def test_plain_markdown_shows_all_pages_and_no_navigation_of_sphinx():
+    """Code hosts show Markdown plainly: there a toctree is a box of words, and the only way on is a link."""
+    shown = {path: re.sub(r"<!--.*?-->", "", path.read_text(encoding="utf-8"), flags=re.DOTALL) for path in DOCS}
+    assert [name_of(path) for path, text in shown.items() if "{toctree}" in text] == []
+    index, api = ROOT / "docs" / "index.md", ROOT / "docs" / "api" / "index.md"
+    linked = {
+        (page.parent / target).resolve() for page in (index, api) for target in re.findall(r"\]\(([^)#]+)", shown[page])
+    }
+    missing = {name_of(path) for path in set(DOCS) - linked - {index}}
+    assert missing == set(), "link it in docs/index.md, under All pages"
+
+
 def test_the_overview_of_the_api_is_that_of_the_docstrings():
     reference = runpy.run_path(str(ROOT / "docs" / "reference.py"))
     assert reference["PAGE"].read_text(encoding="utf-8") == reference["page"](), "run `python docs/reference.py`"
     assert set(reference["names_of_package"]()) == set(reference["TITLES"])
+
+
+def test_every_planner_and_every_format_that_is_written_has_its_row():
+    planners = (ROOT / "docs" / "planners.md").read_text()
+    assert [name for name in PLANNERS if f"| `{name}`" not in planners] == []
+    formats = (ROOT / "docs" / "formats.md").read_text()
+    assert [suffix for kind in WRITERS.values() for suffix in kind if suffix not in formats] == []

@@ -8,6 +8,8 @@ from fuzz.mutations import MUTATIONS, mutate
 from fuzz.seeds import make_seeds
 from fuzz.targets import TARGETS, outcome_of
 
+from tests.sweeps import swept
+
 CORPUS = Path(__file__).parents[1] / "fuzz" / "corpus"
 
 
@@ -36,7 +38,7 @@ def test_damaged_files_are_refused_or_read(folder, seeds, name):
     good.write_bytes(seeds[name])
     TARGETS[name](good)  # the seed itself is read
     before = sorted(path.name for path in folder.iterdir())
-    for number in range(30):
+    for number in range(swept(30, 5)):
         damaged = mutate(seeds[name], Random(f"test/{name}/{number}"), list(seeds.values()))
         good.write_bytes(damaged[:20_000])
         outcome = outcome_of(TARGETS[name], good)

@@ -9,6 +9,7 @@ from hypothesis import given, settings, strategies as st
 from shapely import affinity
 
 import trihex as th
+from tests.sweeps import swept
 from trihex.areas import NEIGHBOURHOODS, TESSELLATIONS, Covering, Tessellation, cover_polygons, cover_raster
 from trihex.areas.clearance import least_cell_size
 from trihex.areas.coverage import star_of_cell
@@ -43,7 +44,7 @@ def rasters(draw):
 
 @pytest.mark.parametrize(("name", "neighbourhood"), KINDS)
 @given(data=st.data())
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=swept(12, 3), deadline=None)
 def test_a_disc_that_moves_from_free_cell_to_free_cell_touches_nothing_that_is_occupied(name, neighbourhood, data):
     occupied = data.draw(rasters())
     tessellation = Tessellation(name, neighbourhood)
@@ -62,7 +63,7 @@ def test_a_disc_that_moves_from_free_cell_to_free_cell_touches_nothing_that_is_o
 
 @pytest.mark.parametrize(("name", "neighbourhood"), KINDS)
 @given(data=st.data())
-@settings(max_examples=8, deadline=None)
+@settings(max_examples=swept(8, 3), deadline=None)
 def test_a_cell_is_a_barrier_only_if_something_lies_within_the_radius_of_its_star(name, neighbourhood, data):
     occupied = data.draw(rasters())
     size, radius = data.draw(st.sampled_from([(0.4, 0.0), (0.55, 0.03), (0.9, 0.12)]))

@@ -51,7 +51,7 @@ def test_the_same_seed_gives_the_same_area(kind, name):
     one = GENERATORS[kind](tessellation, 30, 41, seed=3, **options)
     assert one == GENERATORS[kind](tessellation, 30, 41, seed=3, **options)
     assert (one.tessellation, one.height, one.width) == (tessellation, 30, 41)
-    assert one.name == f"{kind} 30 x 41, seed 3"
+    assert one.name == f"{kind} 41 x 30, seed 3"
     other = GENERATORS[kind](name, 30, 41, seed=4, **options)
     assert (one.barriers != other.barriers).any()
     # The neighbourhood is no part of what is drawn.
@@ -230,7 +230,7 @@ def test_every_generator_starts_alike(kind):
         (("square", 5, -1), "width must be a whole number from 1, not -1"),
         (("square", 5, 2.5), "width must be a whole number from 1, not 2.5"),
         (("square", True, 5), "height must be a whole number from 1, not True"),
-        (("square", 100_000, 100_000), "at most 2000000000 cells, not 100000 x 100000"),
+        (("square", 50_000, 100_000), "at most 2000000000 cells, not 100000 x 50000"),
     ],
 )
 def test_sizes_are_checked(kind, arguments, message):
@@ -266,6 +266,11 @@ def test_seeds_are_checked(kind):
 def test_options_are_checked(kind, option, value, message):
     with pytest.raises(th.AreaError, match=message):
         GENERATORS[kind]("hexagonal", 12, 12, **{option: value})
+
+
+def test_messages_give_sizes_as_everywhere_x_before_y():
+    with pytest.raises(th.AreaError, match="1 leaves none of 9 x 4 with seed 0"):
+        th.make_random_area("square", 4, 9, density=1)
 
 
 def test_pairs_of_triangles_need_two_columns():

@@ -45,9 +45,14 @@ def test_work_in_small_pieces_gives_the_same(monkeypatch):
 
 def test_each_cell_has_a_letter_where_there_is_room():
     area = th.Area("square", [[0, 0, 0, 1], [0, 1, 0, 0], [0, 0, 0, 0], [1, 1, 1, 1]])
-    assert preview_lines(area, np.array([4]), np.array([0, 2]), columns=80, rows=80) == ["D+o+", "++++"]
+    whole = ["o.o#", "D#..", "....", "####"]
+    for rows in (80, 4, 2):
+        assert preview_lines(area, np.array([4]), np.array([0, 2]), columns=80, rows=rows) == whole
+    assert preview_lines(area, np.array([4]), np.array([0, 2]), columns=3) == ["Do+", "+++"]
     assert preview_lines(th.Area("square", np.zeros((1, 3)))) == ["..."]
-    assert preview_lines(th.Area("square", np.ones((5, 1)))) == ["#", "#"]
+    assert preview_lines(th.Area("square", np.ones((5, 1)))) == ["#"] * 5
+    lines = preview_lines(th.make_maze_area("square", 41, 61, seed=1))
+    assert (len(lines), len(lines[0])) == (41, 61) and set("".join(lines)) == set(".#")
 
 
 @pytest.mark.parametrize("name", TESSELLATIONS)

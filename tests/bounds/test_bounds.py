@@ -11,6 +11,7 @@ import trihex as th
 from tests.oracles.optimum import least_total_time
 from tests.oracles.rules import Rules
 from tests.strategies import scenarios
+from tests.sweeps import swept
 from trihex.areas import entries_per_step
 from trihex.bounds import bounds
 from trihex.bounds.cuts import find_cuts
@@ -112,7 +113,7 @@ def test_the_best_bound_is_named_and_told():
     assert th.make_lower_bound(th.make_n_scheme(world("Drrrr"))).name == "distance"
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=swept(150, 20), deadline=None)
 @given(scenarios(sides=(1, 4), most_robots=7))
 def test_no_bound_exceeds_the_optimum(scenario):
     optimum = least_total_time(scenario, 8 + scenario.robot_count)
@@ -135,7 +136,7 @@ def all_nodes(demand):
     return np.concatenate([cells, full, vertices]).astype(np.int32)
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=swept(100, 20), deadline=None)
 @given(scenarios(sides=(1, 4), most_robots=6))
 def test_if_every_place_is_a_gate_the_bound_is_the_least_sum_of_steps(scenario):
     demand = make_demand(scenario)
@@ -148,7 +149,7 @@ def test_if_every_place_is_a_gate_the_bound_is_the_least_sum_of_steps(scenario):
         assert total == optimum
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=swept(60, 20), deadline=None)
 @given(scenarios(sides=(3, 7), most_filled=0.6))
 def test_a_bound_that_is_cut_short_is_lower(scenario):
     demand = make_demand(scenario)
@@ -164,7 +165,7 @@ def _queued(demand):
     return int(bounds._steps_past_cuts(demand, cuts, entries_per_step(demand.scenario)).sum())
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=swept(40, 20), deadline=None)
 @given(scenarios(sides=(3, 6)))
 def test_cuts_part_robots_from_destinations_and_are_nested(scenario):
     scenario = replace(scenario, crossing="allow", destination_capacity=None)

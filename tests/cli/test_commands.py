@@ -25,7 +25,7 @@ SUMMARY_KEYS = [
     *("area", "tessellation", "neighbourhood", "costs", "corners", "crossing", "destination_capacity", "cells"),
     *("free_cells", "robots", "arrived", "unreachable", "seed", "planner", "waiting_cost", "steps", "total_time"),
     *("total_distance", "total_waiting", "longest_time", "lower_bound", "lower_bound_name", "gap", "optimal"),
-    *("conflicts", "seconds"),
+    *("conflicts", "corner_moves", "squeezing_moves", "seconds"),
 ]
 
 
@@ -53,6 +53,21 @@ def test_plan_prints_a_report(folder):
     assert lines[3] == "safe: no conflicts"
 
 
+def test_moves_past_the_corners_of_barriers_are_told(folder):
+    (folder / "leak.txt").write_text("D.B.\n.B..\nB..a\n")
+    line = "1 move passes the corner of a barrier, 1 of them between two; --corners no-cut forbids it"
+    report = run("plan", "leak.txt", "--tessellation", "square", "--out", "leak.npz").stdout.splitlines()
+    assert report[3:5] == ["safe: no conflicts", line]
+    assert run("check", "leak.npz").stdout.splitlines()[1:] == [line]
+    (folder / "open.txt").write_text("....\na..D\n")
+    border = run("plan", "open.txt", "--tessellation", "triangular").stdout.splitlines()[4]
+    assert border.endswith(" the corner of the border; --corners no-cut forbids it")
+    for options in (["--corners", "no-cut"], ["--neighbourhood", "edge"]):
+        told = run("plan", "open.txt", "--tessellation", "triangular", *options).stdout
+        assert "corner" not in told
+    assert "corner" not in run("plan", "leak.txt").stdout  # hexagons have no such moves
+
+
 def test_fcost_plans_unless_another_is_named(folder):
     assert run("plan", "world.txt").stdout.splitlines()[1].startswith("fcost: 3 of 3")
     summary = json.loads(run("plan", "world.txt", "--planner-option", "rule=paper", "--summary", "-").stdout)
@@ -76,7 +91,8 @@ def test_summary_has_the_documented_keys(folder):
 def test_plan_check_animate(folder, tessellation, name):
     plan("--tessellation", tessellation, "--out", name, "--picture", "p.png")
     area = [] if name == "p.npz" else ["world.txt", "--tessellation", tessellation]
-    assert run("check", name, *area).stdout.endswith("safe: no conflicts\n")
+    verdict, *corners = run("check", name, *area).stdout.splitlines()
+    assert verdict.endswith("; safe: no conflicts") and bool(corners) == (tessellation != "hexagonal")
     run("animate", name, *area, "--out", "p.gif", "--max-frames", 3)
     with Image.open("p.png") as picture, Image.open("p.gif") as movie:
         assert min(*picture.size, *movie.size) > 50
@@ -166,6 +182,13 @@ def test_field(folder):
     assert np.array_equal(np.load("d.npy"), th.make_d_scheme(n_scheme).directions)
     names = sorted(path.name for path in (folder / "steps").iterdir())
     assert names == [f"generation-{i:04d}.png" for i in range(len(list(th.distance_generations(scenario))))]
+    far = n_scheme.farthest
+    assert far == n_scheme.distance[~scenario.area.barriers].max()
+    for number, states in enumerate(th.distance_generations(scenario)):
+        title = f"world, generation {number}"
+        wanted = th.picture_of_generation(scenario, states, number, far=far, title=title).to_array()
+        with Image.open(folder / "steps" / names[number]) as picture:
+            assert np.array_equal(np.asarray(picture.convert("RGB")), wanted)
     run("field", "world.txt", "--picture", "n.svg", "--directions-picture", "d.png")
     assert (folder / "n.svg").read_text().startswith("<svg")
 
@@ -174,7 +197,8 @@ def test_compare(folder):
     result = run("compare", "world.txt", "--planners", "greedy", "--out", "t.csv", "--picture", "bars.png")
     lines = result.stdout.splitlines()
     assert lines[0].split("  ")[:2] == ["tessellation", "planner"]
-    assert [line.split()[:2] for line in lines[2:]] == [[name, "greedy"] for name in TESSELLATIONS]
+    assert [line.split()[:2] for line in lines[2:-1]] == [[name, "greedy"] for name in TESSELLATIONS]
+    assert lines[-1] == "written: t.csv, bars.png"
     with open("t.csv", newline="") as file:
         rows = list(csv.DictReader(file))
     assert [row["tessellation"] for row in rows] == list(TESSELLATIONS)
@@ -183,6 +207,17 @@ def test_compare(folder):
         assert row["total_time"] == line.split()[2]
         assert ("<=" in line) == (row["is_proven"] == "False")
     assert (folder / "bars.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_compare_takes_planners_with_options(folder):
+    lines = run("compare", "world.txt", "--planners", "fcost:rule=paper, greedy", "--tessellation", "square").stdout
+    assert [line.split()[1] for line in lines.splitlines()[2:]] == ["fcost:rule=paper", "greedy"]
+    for wrong, message in (
+        ("fcost:rulle=paper", "--planners: option of planner 'fcost' must be one of rule, not 'rulle'"),
+        ("fcots:rule=paper", "--planners must be one of greedy, fcost, astar, optimal, not 'fcots'"),
+        ("fcost:rule=papr", "rule must be one of best, paper, queue, aside, lanes, not 'papr'; did you mean 'paper'?"),
+    ):
+        assert message in run("compare", "world.txt", "--planners", wrong, status=2).stderr
 
 
 def test_compare_on_named_tessellations(folder):

@@ -8,6 +8,7 @@ import pytest
 import trihex as th
 from tests.oracles.polygons import PolygonGraph
 from tests.strategies import random_scenario
+from tests.sweeps import swept
 from trihex.fields import LivingField
 from trihex.kernels.codes import NOT_REACHED
 
@@ -79,7 +80,7 @@ def test_repaired_fields_equal_dijkstra_on_drawn_polygons(name, neighbourhood, c
 
 
 def test_updated_schemes_are_new_records_equal_to_fresh_ones():
-    for seed in range(30):
+    for seed in range(swept(30, 10)):
         scenario = random_scenario(seed, sides=(3, 10), most_robots=3)
         n_scheme = th.make_n_scheme(scenario)
         before = n_scheme.distance.copy()

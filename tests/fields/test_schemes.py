@@ -8,6 +8,7 @@ import pytest
 
 import trihex as th
 from tests.oracles.polygons import PolygonGraph
+from tests.sweeps import swept
 from trihex.kernels.codes import NOT_REACHED
 
 NEIGHBOURHOODS = [
@@ -64,7 +65,7 @@ def assert_equal_to_polygons(scenario):
 @pytest.mark.parametrize(("tessellation", "corners"), RULES, ids=lambda rule: getattr(rule, "name", rule))
 def test_schemes_equal_dijkstra_on_drawn_polygons(tessellation, corners):
     rng = np.random.default_rng(20190204)
-    for _ in range(10):
+    for _ in range(swept(10, 2)):
         scenario = random_scenario(rng, tessellation, corners)
         graph, n_scheme = assert_equal_to_polygons(scenario)
         assert n_scheme.generations == graph.generations(places(scenario))

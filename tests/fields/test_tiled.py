@@ -9,13 +9,13 @@ import time
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from itertools import product
 
-import distributed
 import numpy as np
 import pytest
 import zarr
 from click.testing import CliRunner
 
 import trihex as th
+from tests.cluster import make_cluster
 from trihex.cli import main
 from trihex.errors import FormatError, ScenarioError
 from trihex.fields import make_tiled_field
@@ -115,9 +115,7 @@ def test_tiles_are_settled_by_the_workers_of_a_dask_scheduler(tmp_path):
     barriers, destinations = draw(np.random.default_rng(2), (30, 50))
     np.save(tmp_path / "area.npy", barriers)
     x, y = destinations[0]
-    with distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, processes=False, dashboard_address=None
-    ) as cluster:
+    with make_cluster(n_workers=2, processes=False) as cluster:
         words = ["field", str(tmp_path / "area.npy"), "--destination", f"{x},{y}", "--out", str(tmp_path / "field.npy")]
         result = CliRunner().invoke(main, [*words, "--tile", "8", "--scheduler", cluster.scheduler_address])
     assert result.exit_code == 0, result.output

@@ -7,7 +7,6 @@ from dataclasses import replace
 from math import cos, pi, sin, sqrt
 
 import numpy as np
-import pedpy
 import pytest
 import shapely
 from hypothesis import given, settings, strategies as st
@@ -171,6 +170,8 @@ def walk_on(name, seed=0):
 
 @pytest.mark.parametrize("name", ["triangular", "hexagonal", "square"])
 def test_pedpy_reads_the_trajectories_and_the_ground_they_stand_on(tmp_path, name):
+    import pedpy
+
     plan = walk_on(name)
     write_waypoints(plan, tmp_path / "t.sqlite", speed=1.5)
     trajectories = pedpy.load_trajectory_from_jupedsim_sqlite(trajectory_file=tmp_path / "t.sqlite")
@@ -191,6 +192,8 @@ def test_pedpy_reads_the_trajectories_and_the_ground_they_stand_on(tmp_path, nam
 
 
 def test_ground_that_no_robot_stands_on_is_left_out(tmp_path):
+    import pedpy
+
     area = Area("square", [[0, 0, 1, 0]], frame=Frame(1.0))
     write_waypoints(plan_from_lists(Scenario(area, [(1, 0)], [(0, 0)]), [[1]]), tmp_path / "t.sqlite")
     ground = pedpy.load_walkable_area_from_jupedsim_sqlite(trajectory_file=tmp_path / "t.sqlite")

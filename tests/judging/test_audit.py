@@ -7,6 +7,7 @@ from hypothesis import given, settings, strategies as st
 import trihex as th
 from tests.oracles.rules import judge
 from tests.strategies import scenarios
+from tests.sweeps import swept
 from trihex.areas import Claim
 from trihex.judging.conflict import KINDS
 from trihex.kernels.codes import JUMP, WAIT
@@ -184,7 +185,7 @@ def nonsense(scenario, seed):
     return plan_from_lists(scenario, actions, jumps=jumps)
 
 
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=swept(400), deadline=None)
 @given(scenarios(sides=(1, 5)), st.integers(0, 2**32 - 1))
 def test_the_judge_agrees_with_one_that_draws_polygons(scenario, seed):
     plan = nonsense(scenario, seed)

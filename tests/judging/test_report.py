@@ -1,10 +1,12 @@
 """Reports: the numbers of plans made by hand."""
 
 import json
+from dataclasses import replace
 
 import pytest
 
 import trihex as th
+from tests.strategies import random_scenario
 from trihex.kernels.codes import WAIT
 from trihex.plans import plan_from_lists
 
@@ -43,6 +45,8 @@ def test_the_summary_says_it_all():
         "gap": pytest.approx(0.2),
         "optimal": False,
         "conflicts": 0,
+        "corner_moves": 0,
+        "squeezing_moves": 0,
         "seconds": {"read": None, "field": None, "plan": 0.25, "audit": None},
     }
     assert report.unreachable_robots.tolist() == [3]
@@ -87,3 +91,31 @@ def test_what_is_at_hand_is_not_made_again():
 
 def test_no_gap_above_a_bound_of_nothing():
     assert th.make_report(PLAN, lower_bound=th.LowerBound("nothing", 0)).gap is None
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_moves_past_corners_are_those_that_the_judge_forbids_under_the_stricter_rules(seed):
+    plan = th.make_plan(replace(random_scenario(81_000 + seed, sides=(3, 9)), corners="allow"), "greedy")
+    report = th.make_report(plan)
+    counts = []
+    for corners in ("no-cut", "no-squeeze"):
+        law = replace(plan.scenario, corners=corners)
+        audit = th.audit_plan(th.Plan(law, plan.actions, plan.first_action), limit=100_000)
+        counts.append(sum(conflict.kind == "corner" for conflict in audit.conflicts))
+    assert [report.corner_moves, report.squeezing_moves] == counts
+
+
+def test_moves_past_corners_are_counted_by_hand():
+    #  . # b     a squeezes between two barriers, b passes one, c goes straight
+    #  # . .
+    #  c . a
+    area = th.Area("square", [[0, 1, 0], [1, 0, 0], [0, 0, 0]])
+    scenario = th.Scenario(area, [(0, 0), (1, 1)], [(2, 2), (2, 0), (0, 2)])
+    north_west, south_west = 7, 6
+    plan = plan_from_lists(scenario, [[W, N], [south_west], [E, N]])
+    assert th.make_report(plan).corner_moves == 1
+    squeezing = th.Scenario(area, [(0, 0)], [(1, 1)])
+    report = th.make_report(plan_from_lists(squeezing, [[north_west]]))
+    assert (report.corner_moves, report.squeezing_moves) == (1, 1)
+    astray = th.make_report(plan_from_lists(squeezing, [[N] * 50]))  # onto a barrier and out of the area
+    assert (astray.corner_moves, astray.squeezing_moves) == (0, 0)

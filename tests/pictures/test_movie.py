@@ -5,10 +5,14 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from trihex.areas import TESSELLATIONS, Area, Scenario, random_robots
+import trihex as th
+from trihex.areas import TESSELLATIONS, Area, Frame, Scenario, random_robots
 from trihex.errors import FormatError, MissingExtraError, PlanError
 from trihex.kernels.codes import JUMP, WAIT
 from trihex.pictures import palette, picture_of_area, write_animation
+from trihex.pictures.movie import PlanFilm
+from trihex.pictures.run_movie import RunFilm
+from trihex.pictures.scene import Bar
 from trihex.plans import Plan, plan_from_lists
 
 BARE = {"title": "", "clock": False, "legend": False}
@@ -138,6 +142,22 @@ def test_clock_and_title_change_only_their_place(tmp_path):
     bare = tmp_path / "b.gif"
     write_animation(plan, bare, max_frames=6, **BARE)
     assert frames[0].shape[0] > frames_of(bare)[0].shape[0] + 60
+
+
+@pytest.mark.parametrize("make", [lambda plan: PlanFilm(plan, 9, 300, None, True, True), lambda plan: run_film(plan)])
+def test_movies_of_places_in_the_world_have_a_scale(make):
+    plan = corridor_plan()
+    area = Area("square", plan.scenario.area.barriers, "corridor", Frame(2.0))
+    scenario = Scenario(area, plan.scenario.destinations, plan.scenario.robots)
+    film = make(Plan(scenario, plan.actions, plan.first_action))
+    assert [(entry.words, entry.length) for entry in film.scene.legend if isinstance(entry, Bar)] == [("5 m", 2.5)]
+    (x, y, long), frame = film.sheet.bars[0], next(film.frames())
+    assert long == round(2.5 * film.scene.scale)
+    assert (frame[round(y), round(x) : round(x) + long] == palette.INK).all()
+
+
+def run_film(plan: Plan) -> RunFilm:
+    return RunFilm(th.Trial(plan.scenario).run(), 9, 300, "")
 
 
 def test_files_are_the_same_again(tmp_path):

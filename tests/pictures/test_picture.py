@@ -1,9 +1,11 @@
+import itertools
 import re
 import xml.etree.ElementTree as ET
 from io import BytesIO
 
 import numpy as np
 import pytest
+import shapely
 from PIL import Image
 
 import trihex as th
@@ -20,7 +22,8 @@ from trihex.pictures import (
     picture_of_plan,
 )
 from trihex.pictures.png import paint
-from trihex.pictures.scene import Discs, Key, Lines, Ramp, Scene, Texts, colour_rows
+from trihex.pictures.scene import Bar, Discs, Key, Lines, Ramp, Scene, Texts, centres_of, colour_rows
+from trihex.pictures.sheet import arrange
 from trihex.plans import plan_from_lists
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -179,6 +182,23 @@ def test_d_scheme_has_an_arrow_along_each_best_move(name):
 
 
 @pytest.mark.parametrize("name", TESSELLATIONS)
+def test_arrows_of_a_cell_are_apart(name):
+    """On triangles they may be but 30 degrees apart; neither heads nor shafts may touch."""
+    scenario = Scenario(Area(name, np.zeros((9, 15))), [(7, 4)])
+    picture = picture_of_d_scheme(make_d_scheme(make_n_scheme(scenario)))
+    (lines,) = [mark for mark in picture.scene.marks if isinstance(mark, Lines)]
+    arrows = {}
+    for arrow in lines.paths:
+        arrows.setdefault(tuple(map(int, scenario.area.tessellation.cell_at_point(*arrow[0]))), []).append(arrow)
+    assert max(map(len, arrows.values())) > 1
+    shapes = {cell: [shapely.LineString(arrow) for arrow in own] for cell, own in arrows.items()}
+    width = lines.width / picture.scene.scale
+    for own in shapes.values():
+        for one, other in itertools.combinations(own, 2):
+            assert one.distance(other) > width
+
+
+@pytest.mark.parametrize("name", TESSELLATIONS)
 def test_small_cells_take_the_colour_of_their_direction(name):
     area = Area(name, np.zeros((41, 41)))
     scene = picture_of_d_scheme(make_d_scheme(make_n_scheme(Scenario(area, [(20, 20)]))), width=200).scene
@@ -302,7 +322,7 @@ def test_few_colours_make_a_palette_image(tmp_path):
 
 def test_unknown_suffix_names_the_choices_and_leaves_nothing(tmp_path):
     picture = picture_of_area(small_scenario("square"))
-    with pytest.raises(FormatError, match=r"must be one of \.png, \.svg, not '\.pgn'; did you mean '\.png'"):
+    with pytest.raises(FormatError, match=r"must be one of \.png, \.svg, \.pdf, not '\.pgn'; did you mean '\.png'"):
         picture.save(tmp_path / "small.pgn")
     with pytest.raises(FileNotFoundError):
         picture.save(tmp_path / "no" / "small.png")
@@ -403,3 +423,103 @@ def test_starts_are_left_out_where_they_would_hide_all_else():
     crowd = th.make_plan(th.Scenario(area, [(50, 50)], th.random_robots(area, 3000, avoid=[(50, 50)])), "greedy")
     shown = {width: "start" in str(th.picture_of_plan(crowd, width=width).scene.legend) for width in (100, 2000)}
     assert shown == {100: False, 2000: True}
+
+
+def bars_of(picture: th.Picture) -> list[Bar]:
+    return [entry for entry in picture.scene.legend if isinstance(entry, Bar)]
+
+
+def in_the_world(name: str, cell_size: float = 0.5) -> Scenario:
+    scenario = small_scenario(name)
+    area = Area(name, scenario.area.barriers, "hall", th.Frame(cell_size, origin=(3.0, 4.0), yaw=0.3))
+    return Scenario(area, scenario.destinations, scenario.robots)
+
+
+@pytest.mark.parametrize("name", TESSELLATIONS)
+def test_pictures_of_places_in_the_world_have_a_scale(name):
+    scenario = in_the_world(name)
+    n_scheme = make_n_scheme(scenario)
+    for picture in (
+        picture_of_area(scenario.area, width=300),
+        picture_of_n_scheme(n_scheme, width=300),
+        picture_of_d_scheme(make_d_scheme(n_scheme), width=300),
+        picture_of_plan(plan_from_lists(scenario, [[], [], []]), width=300),
+        th.picture_of_run(th.Trial(scenario).run(), width=300),
+    ):
+        (bar,) = bars_of(picture)
+        metres, unit = bar.words.split()
+        assert unit == "m"
+        assert bar.length * 0.5 == float(metres)
+        long = round(bar.length * picture.scene.scale)
+        assert 48 <= long <= 120
+        ((x, y, _),) = arrange(picture.scene).bars
+        row = (picture.to_array()[round(y), round(x) - 3 : round(x) + long + 3] == palette.INK).all(axis=1)
+        assert row.tolist() == [False] * 3 + [True] * long + [False] * 3
+        assert f"h{long}m" in picture.to_svg()
+    assert not bars_of(picture_of_area(scenario, legend=False))
+    assert not bars_of(picture_of_area(small_scenario(name)))
+
+
+@pytest.mark.parametrize(
+    ("cell_size", "words"),
+    [(0.001, "0.002 m"), (0.05, "0.1 m"), (0.5, "1 m"), (1.0, "2 m"), (2.5, "5 m"), (480.0, "1 km"), (1e9, "2e+06 km")],
+)
+def test_scales_are_round_lengths_that_fit(cell_size, words):
+    area = Area("square", np.zeros((4, 6)), "", th.Frame(cell_size))
+    (bar,) = bars_of(picture_of_area(area, width=300))
+    assert bar.words == words
+    (tiny,) = bars_of(picture_of_area(area, width=20))
+    assert tiny.length * 20 / 6 <= 24
+
+
+def test_a_part_of_a_place_in_the_world_keeps_its_scale():
+    barriers = np.ones((40, 50), dtype=bool)
+    barriers[9:20, 13:30] = False
+    area = Area("hexagonal", barriers, "yard", th.Frame(0.5, origin=(-3.0, 8.0), yaw=0.4))
+    plan = th.make_plan(Scenario(area, [(20, 12)], [(14, 10)]), "greedy")
+    picture = picture_of_plan(plan, width=400, crop=True)
+    part = picture.scene.area
+    assert part.height < 20
+    assert bars_of(picture)[0].length * 0.5 == 2
+    here, there = (one.cell_to_metres(cell) for one, cell in ((part, 0), (area, 6 * 50 + 10)))
+    np.testing.assert_allclose(here, there)
+
+
+def test_paths_do_not_hide_where_they_end():
+    """Ten robots come from all sides; the colour of the destination is still seen around its letter."""
+    area = Area("hexagonal", np.zeros((11, 11)))
+    ring = [(x, y) for x in (0, 10) for y in (0, 5, 10)] + [(5, 0), (5, 10), (3, 0), (7, 10)]
+    plan = th.make_plan(Scenario(area, [(5, 5)], ring), "greedy")
+    picture = picture_of_plan(plan, width=440, title="", legend=False)
+    x, y = (float(at) * picture.scene.scale for at in area.tessellation.centre_of_cell(5, 5))
+    turn = np.linspace(0, 2 * np.pi, 60)
+    radius = 0.36 * picture.scene.scale
+    around = picture.to_array()[(y + radius * np.sin(turn)).astype(int), (x + radius * np.cos(turn)).astype(int)]
+    assert (around == palette.DESTINATION).all()
+
+
+@pytest.mark.parametrize(("width", "is_named"), [(400, True), (160, False)])
+def test_robots_that_never_arrive_are_named(width, is_named):
+    barriers = np.zeros((20, 20), dtype=bool)
+    barriers[:, 10] = True
+    area = Area("hexagonal", barriers)
+    robots = [(x, y) for y in range(0, 20, 2) for x in (2, 5, 8)] + [(15, 3), (16, 9)]
+    scenario = Scenario(area, [(0, 0)], robots[1:])
+    plan = th.make_plan(scenario, "greedy")
+    stranded = np.flatnonzero(~plan.arrived)
+    assert stranded.tolist() == [29, 30]
+    marks = picture_of_plan(plan, width=width).scene.marks
+    texts = [mark for mark in marks if isinstance(mark, Texts)]
+    assert [mark.words for mark in texts if "D" not in mark.words] == ([("29", "30")] if is_named else [])
+    if is_named:
+        x, y = centres_of(area, scenario.robots[stranded])
+        np.testing.assert_allclose([texts[-1].x, texts[-1].y], [x, y])
+
+
+def test_robots_that_never_arrive_have_their_letter_or_their_number():
+    plan = corridor_plan()
+    words = {
+        width: [mark.words for mark in picture_of_plan(plan, width=width).scene.marks if isinstance(mark, Texts)]
+        for width in (700, 100)
+    }
+    assert words == {700: [("D",), ("a",), ("b",), ("c",)], 100: [("2",)]}

@@ -5,11 +5,12 @@ import pytest
 
 import trihex as th
 from tests.strategies import random_scenario
+from tests.sweeps import swept
 from trihex.planners import make_plan
 
 
 @pytest.mark.parametrize("rule", ["paper", "queue", "aside", "lanes"])
-@pytest.mark.parametrize("seed", range(60))
+@pytest.mark.parametrize("seed", range(swept(60, 10)))
 def test_each_rule_ends_and_keeps_the_rules(rule, seed):
     scenario = random_scenario(80_000 + seed, sides=(3, 10))
     plan = make_plan(scenario, "fcost", rule=rule)
@@ -18,7 +19,7 @@ def test_each_rule_ends_and_keeps_the_rules(rule, seed):
     assert plan.arrived.sum() == scenario.robot_count - th.make_n_scheme(scenario).unreachable_robots.size
 
 
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", range(swept(40, 10)))
 def test_the_best_of_the_rules_is_never_worse_than_greedy(seed):
     scenario = random_scenario(90_000 + seed, sides=(3, 10))
     totals = {rule: make_plan(scenario, "fcost", rule=rule).total_time for rule in ("best", "aside", "lanes")}

@@ -6,6 +6,7 @@ import pytest
 
 import trihex as th
 from tests.strategies import random_scenario
+from tests.sweeps import swept
 from trihex.planners import make_plan
 
 
@@ -89,7 +90,7 @@ class SlowGreedy:
                 self.actions[robot].append(255)
 
 
-@pytest.mark.parametrize("seed", range(70))
+@pytest.mark.parametrize("seed", range(swept(70, 20)))
 def test_plan_is_that_of_the_slow_reading(seed):
     scenario = random_scenario(310_000 + seed, sides=(4, 11))
     slow = SlowGreedy(scenario)

@@ -11,6 +11,7 @@ from ortools.graph.python.min_cost_flow import SimpleMinCostFlow
 import trihex as th
 from tests.oracles.rules import Rules
 from tests.strategies import random_scenario
+from tests.sweeps import swept
 from trihex.planners.lanes import make_lanes
 
 
@@ -111,7 +112,7 @@ def chosen_robots(scenario, graph, is_choosy):
 
 
 @pytest.mark.parametrize("is_choosy", [True, False])
-@pytest.mark.parametrize("seed", range(60))
+@pytest.mark.parametrize("seed", range(swept(60, 12)))
 def test_lanes_are_a_flow_of_least_cost_from_the_farthest_robots(seed, is_choosy):
     scenario = replace(random_scenario(120_000 + seed, sides=(3, 12)), destination_capacity=None)
     tessellation = scenario.area.tessellation
@@ -125,7 +126,7 @@ def test_lanes_are_a_flow_of_least_cost_from_the_farthest_robots(seed, is_choosy
     assert cost == graph.least_cost(chosen)
 
 
-@pytest.mark.parametrize("seed", range(80))
+@pytest.mark.parametrize("seed", range(swept(80, 16)))
 def test_lanes_share_nothing_and_all_cells_join_them(seed):
     scenario = random_scenario(130_000 + seed, sides=(3, 12))
     n_scheme = th.make_n_scheme(scenario)

@@ -5,11 +5,12 @@ import pytest
 
 import trihex as th
 from tests.strategies import random_scenario
+from tests.sweeps import swept
 from trihex.planners import PLANNERS, make_plan, options_of, planner_named
 
 
 @pytest.mark.parametrize("planner", PLANNERS)
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", range(swept(40, 10)))
 def test_contract(planner, seed):
     scenario = random_scenario(70_000 + seed, sides=(3, 8))
     n_scheme = th.make_n_scheme(scenario)

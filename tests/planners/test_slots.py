@@ -5,6 +5,7 @@ import pytest
 
 import trihex as th
 from tests.strategies import random_scenario
+from tests.sweeps import swept
 from trihex.planners.slots import Slots
 
 
@@ -21,7 +22,7 @@ def shortest_path(n_scheme, d_scheme, cell):
     return path
 
 
-@pytest.mark.parametrize("seed", range(60))
+@pytest.mark.parametrize("seed", range(swept(60, 10)))
 def test_the_paper_s_count_over_all_paths_is_a_look_up(seed):
     """c: the others that are in one cell at one step with the path that starts with a direction."""
     scenario = random_scenario(seed, sides=(3, 9))
@@ -49,7 +50,7 @@ def test_the_paper_s_count_over_all_paths_is_a_look_up(seed):
 
 
 @pytest.mark.parametrize("is_literal", [False, True])
-@pytest.mark.parametrize("seed", range(30))
+@pytest.mark.parametrize("seed", range(swept(30, 10)))
 def test_each_robot_is_counted_in_a_slot_of_its_own_region(seed, is_literal):
     scenario = random_scenario(5_000 + seed, sides=(3, 9))
     n_scheme = th.make_n_scheme(scenario)

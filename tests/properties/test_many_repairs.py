@@ -1,9 +1,8 @@
 """Many random sequences of 20 changes: fields, directions and moves are at any time those of a fresh scenario.
 
-``TRIHEX_REPAIRS=10000 pytest tests/properties/test_many_repairs.py`` runs as many sequences as that.
+``TRIHEX_SWEEPS=25 pytest tests/properties/test_many_repairs.py`` tries 10 000 of them.
 """
 
-import os
 from dataclasses import replace
 
 import numpy as np
@@ -11,9 +10,10 @@ import pytest
 
 import trihex as th
 from tests.strategies import random_scenario
+from tests.sweeps import swept
 from trihex.fields import LivingField
 
-COUNT = int(os.environ.get("TRIHEX_REPAIRS", "400"))
+COUNT = swept(400)
 SHARES, CHANGES = 4, 20
 
 

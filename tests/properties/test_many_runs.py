@@ -1,17 +1,16 @@
 """Many random runs with events, sensing radii and delays: they end, no rule is broken, all arrive who can.
 
-``TRIHEX_RUNS=2000 pytest tests/properties/test_many_runs.py`` runs as many as that.
+``TRIHEX_SWEEPS=7 pytest tests/properties/test_many_runs.py`` runs 2100 of them.
 """
-
-import os
 
 import numpy as np
 import pytest
 
 from tests.running.random_runs import random_trial
+from tests.sweeps import swept
 from trihex.running import GOING, audit_run, resume_trial
 
-COUNT = int(os.environ.get("TRIHEX_RUNS", "300"))
+COUNT = swept(300)
 SHARES, MOST_STEPS = 4, 5000
 
 

@@ -1,16 +1,15 @@
 """Many random scenarios of every kind: planners end, nothing collides, all arrive who can, no plan beats a bound."""
 
-import os
-
 import numpy as np
 import pytest
 
 import trihex as th
 from tests.strategies import random_scenario
+from tests.sweeps import swept
 from trihex.bounds import cut_bound, distance_bound, slot_bound
 from trihex.planners import PLANNERS, make_plan
 
-COUNT = int(os.environ.get("TRIHEX_SCENARIOS", "10000"))
+COUNT = swept(10_000)
 SHARES = 20
 # Planners that look at every (cell, step) are asked on the smaller ones only.
 THOROUGH = {"optimal", "astar"}

@@ -7,6 +7,7 @@ import pytest
 
 import trihex as th
 from tests.strategies import random_scenario
+from tests.sweeps import swept
 from trihex.kernels.codes import WAIT
 from trihex.running import ARRIVED, BROKEN, GOING, LEFT, Execution
 
@@ -125,7 +126,7 @@ def expected_step(scenario, planner, aside, places, came_from):
     ("planner", "aside"), [("greedy", "always"), ("fcost", "always"), ("fcost", "worth"), ("fcost", "never")]
 )
 def test_every_step_is_as_the_rules_say(planner, aside):
-    for seed in range(25):
+    for seed in range(swept(25, 6)):
         scenario = random_scenario(seed, sides=(3, 9), most_robots=20)
         execution = Execution(scenario, planner, aside=aside)
         came_from = dict.fromkeys(range(scenario.robot_count))

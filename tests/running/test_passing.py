@@ -5,6 +5,7 @@ import pytest
 
 import trihex as th
 from tests.strategies import random_scenario
+from tests.sweeps import swept
 from trihex.plans import plan_from_lists
 from trihex.running import audit_run, make_passing_order
 
@@ -65,7 +66,7 @@ def test_waits_that_nobody_needs_are_left_out():
 
 
 def test_delayed_plans_stay_safe_and_all_arrive_who_do_in_the_plan():
-    for seed in range(60):
+    for seed in range(swept(60, 12)):
         scenario = random_scenario(seed, sides=(3, 14))
         plan = th.make_plan(scenario, ("greedy", "fcost")[seed % 2])
         order = make_passing_order(plan)

@@ -2,13 +2,16 @@
 
 import os
 import signal
+import socket
+from contextlib import suppress
 from dataclasses import replace
 
-import distributed
 import pytest
 from click.testing import CliRunner
 
 import trihex as th
+from tests.cluster import make_cluster
+from tests.sweeps import swept
 from trihex.cli import main
 from trihex.studies import cluster, connected
 from trihex.studies.study import make_study
@@ -16,7 +19,7 @@ from trihex.studies.study import make_study
 AREA = {"generator": "random", "size": [12, 9], "density": 0.1}
 RUNS = [
     {"area": AREA, "robots": 5, "seed": seed, "planner": planner}
-    for seed in range(40)
+    for seed in range(swept(40, 10))
     for planner in ("greedy", "fcost")
 ]
 
@@ -27,30 +30,37 @@ def without_seconds(rows):
 
 def test_a_cluster_makes_the_same_table_though_its_worker_is_killed():
     killed = []
-    with distributed.LocalCluster(n_workers=1, threads_per_worker=1, processes=True, dashboard_address=None) as own:
+    with make_cluster(n_workers=1, processes=True) as own:
 
         def kill(done, total):
             if not killed and done >= 10:
                 killed.append(next(iter(own.workers.values())).pid)
                 os.kill(killed[0], signal.SIGKILL)
 
-        with connected(own.scheduler_address) as workers:
+        with connected(own.scheduler_address, seconds=180) as workers:
             rows = th.run_study(RUNS, executor=workers, progress=kill)
             limited = th.run_study(replace(make_study(RUNS[:1]), seconds=600.0), executor=workers)
             with pytest.raises(th.StudyError, match=r"tcp://.*: the worker has trihex 0\.1\.0, this is 9\.9"):
-                cluster._check_workers(workers.client, own.scheduler_address, 1, "9.9")
+                cluster._check_workers(workers.client, own.scheduler_address, 180, "9.9")
     assert without_seconds(rows) == without_seconds(th.run_study(RUNS))
     assert without_seconds(limited) == without_seconds(rows[:1])
     assert killed
 
 
 def test_a_scheduler_without_workers_is_of_no_use():
-    own = distributed.LocalCluster(
-        n_workers=0, threads_per_worker=1, processes=False, dashboard_address=None, protocol="tcp://"
-    )
+    own = make_cluster(n_workers=0, processes=False, protocol="tcp://")
     told = pytest.raises(th.StudyError, match="the scheduler has no workers; start some with: dask worker tcp://")
-    with own, told, connected(own.scheduler_address, seconds=0.5):
+    with own, told, connected(own.scheduler_address, seconds=3):
         pass
+
+
+def test_clusters_need_no_port_of_their_own():
+    """Port 8787 is that of the dashboard, which somebody else may have."""
+    with socket.socket() as taken, suppress(OSError):
+        taken.bind(("127.0.0.1", 8787))
+        taken.listen()
+        with make_cluster(n_workers=0, processes=False), make_cluster(n_workers=0, processes=False):
+            pass
 
 
 @pytest.mark.parametrize(

@@ -33,6 +33,7 @@ class Made:
 
 def compared(monkeypatch, scenario, planners, **plans):
     monkeypatch.setattr(comparison, "make_plan", Made(**plans))
+    monkeypatch.setattr(comparison, "planner_from", lambda name: (name, {}))
     clock = count()
     return comparison.make_comparison([scenario], planners, clock=lambda: next(clock)).rows()
 
@@ -75,6 +76,47 @@ def test_registered_planners_on_all_tessellations_with_progress():
     assert [row["tessellation"] for row in rows[:: len(planners.PLANNERS)]] == ["triangular", "hexagonal", "square"]
     assert all(row["conflicts"] == 0 and row["gap"] >= 0 for row in rows)
     assert told == [(i, len(rows)) for i in range(1, len(rows) + 1)]
+
+
+def test_planners_are_told_apart_by_their_options():
+    area = th.Area("square", [[0, 0, 0, 0, 0], [0, 1, 0, 1, 0], [0, 0, 0, 0, 0]])
+    scenario = th.Scenario(area, [(2, 1)], th.random_robots(area, 9, seed=2, avoid=[(2, 1)]))
+    wanted = ["fcost", "fcost:rule=paper", "fcost: rule=queue"]
+    rows = th.make_comparison([scenario], wanted).rows()
+    assert [row["planner"] for row in rows] == wanted
+    rules = ("best", "paper", "queue")
+    assert [row["total_time"] for row in rows] == [th.make_plan(scenario, rule=rule).total_time for rule in rules]
+    (mapped,) = th.make_comparison([scenario], {"fcost:rule=best": {"rule": "paper"}}).rows()
+    assert mapped["total_time"] == rows[1]["total_time"]
+
+
+@pytest.mark.parametrize(
+    ("planner", "message"),
+    [
+        ("fcost:rulle=paper", "option of planner 'fcost' must be one of rule, not 'rulle'; did you mean 'rule'?"),
+        ("fcost:rule", "planner 'fcost:rule' must be NAME:OPTION=VALUE, not 'rule'"),
+        ("fcost:rule=a:rule=b", "planner 'fcost:rule=a:rule=b' must name each option once, not 'rule' twice"),
+        ("fcost:", "planner 'fcost:' must be NAME:OPTION=VALUE, not ''"),
+        ("greedy:rule=paper", "planner 'greedy' has no options, so not 'rule'"),
+        ("fcots:rule=", "planner must be one of greedy, fcost, astar, optimal, not 'fcots'; did you mean 'fcost'?"),
+        (3, "planner must be a name, such as 'fcost' or 'fcost:rule=paper', not 3"),
+    ],
+)
+def test_mistakes_in_a_planner_with_options_are_told(planner, message):
+    with pytest.raises(th.PlanError) as error:
+        planners.planner_from(planner)
+    assert str(error.value) == message
+
+
+def test_values_of_options_are_refused_before_anyone_plans():
+    told = []
+    with pytest.raises(th.PlanError, match=r"rule must be one of .*, not 'papr'"):
+        th.make_comparison([SCENARIO], ["greedy", "fcost:rule=papr"], progress=lambda *done: told.append(done))
+    assert told == []
+
+
+def test_numbers_among_options_are_numbers():
+    assert planners.planner_from("astar:memory_limit=3e9") == ("astar", {"memory_limit": 3e9})
 
 
 def test_an_unknown_planner_is_refused():

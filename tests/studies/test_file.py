@@ -101,6 +101,27 @@ areas = [{size = [3, 4]}, {generator = "randm", density = 20}]
     ]
 
 
+def test_planners_may_bring_their_options_in_their_names(tmp_path):
+    text = """
+areas = {generator = "random", size = [4, 4]}
+robots = 1
+planners = ["fcost:rule=paper", {name = ["fcost:rule=queue", "greedy"]},
+  {name = "optimal", options = {objective = "steps"}}]
+"""
+    study = th.read_study(written(tmp_path, text))
+    assert [(case["planner"]["name"], case["planner"]["options"]) for case in study.trials] == [
+        ("fcost", {"rule": "paper"}),
+        ("fcost", {"rule": "queue"}),
+        ("greedy", {}),
+        ("optimal", {"objective": "steps"}),
+    ]
+    area = {"generator": "random", "size": [4, 4]}
+    (row,) = th.run_study([{"area": area, "robots": 1, "planner": "fcost:rule=paper"}])
+    assert (row["planner"], row["planner_options"]) == ("fcost", '{"rule":"paper"}')
+    with pytest.raises(th.FormatError, match=r"planners.0: option of planner 'fcost' must be one of rule, not 'rulle'"):
+        th.read_study(written(tmp_path, text.replace("rule=paper", "rulle=paper")))
+
+
 def test_mistakes_that_only_files_and_planners_tell(tmp_path):
     (tmp_path / "bad.map").write_text("type octile\nheight 9\nwidth 2\nmap\n..\n")
     text = """

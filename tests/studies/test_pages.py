@@ -39,13 +39,6 @@ def table_after(text, words):
     return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[first:last]]
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_a_page_is_what_its_results_make_it(name):
-    from examples.studies.__main__ import PAGES
-
-    assert text_of(name) == PAGES[name].page(), "make studies"
-
-
 @pytest.mark.parametrize("name", [*NAMES, "gaps", "queues"])
 def test_results_are_those_of_the_study_beside_them(name):
     study = th.read_study(ROOT / "examples" / "studies" / f"{name}.toml")
@@ -154,12 +147,12 @@ def test_the_example_is_the_one_that_is_explained_and_runs(tmp_path):
     assert [row["error"] for row in th.run_study(tmp_path / "study.toml")] == [None] * 6
 
 
-def test_pages_and_pictures_are_written_by_one_command(tmp_path, monkeypatch, capsys):
+def test_pages_are_what_their_results_make_them_and_written_by_one_command(tmp_path, monkeypatch, capsys):
     from examples.studies import __main__ as command
 
     monkeypatch.setattr(sys, "argv", ["studies"])
     command.main(tmp_path)
     for name in NAMES:
-        assert (tmp_path / "studies" / f"{name}.md").read_text(encoding="utf-8") == text_of(name)
+        assert (tmp_path / "studies" / f"{name}.md").read_text(encoding="utf-8") == text_of(name), "make studies"
         assert (tmp_path / "figures" / f"study_{name}.png").stat().st_size > 10_000
     assert capsys.readouterr().out.count("\n") == len(NAMES)

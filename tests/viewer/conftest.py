@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.viewer.pages import Shown
+from tests.viewer.pages import PATIENCE, Shown
 from trihex.viewer.desk import Desk
 from trihex.viewer.folder import Folder
 from trihex.viewer.server import make_viewing
@@ -52,7 +52,7 @@ def browser():
     from playwright.sync_api import sync_playwright
 
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=path, args=list(FLAGS))
+        browser = playwright.chromium.launch(executable_path=path, args=list(FLAGS), timeout=PATIENCE)
         yield browser
         browser.close()
 

@@ -7,6 +7,8 @@ from PIL import Image
 
 from trihex.areas import Tessellation
 
+# Milliseconds; a busy machine may need many.
+PATIENCE = 180_000
 APP = "document.querySelector('#trihex').app"
 
 
@@ -17,12 +19,13 @@ class Shown:
         self.page = page
         self.artefacts = artefacts
         self.faults = []
+        page.set_default_timeout(PATIENCE)
         page.on("pageerror", lambda error: self.faults.append(str(error)))
         page.on("console", lambda line: self.faults.append(line.text) if line.type == "error" else None)
 
     def wait(self, condition):
         """Wait until a condition on `app` holds."""
-        self.page.wait_for_function(f"() => {{ const app = {APP}; return app && ({condition}) }}", timeout=180000)
+        self.page.wait_for_function(f"() => {{ const app = {APP}; return app && ({condition}) }}", timeout=PATIENCE)
 
     def ask(self, expression):
         return self.page.evaluate(f"() => {{ const app = {APP}; return {expression} }}")

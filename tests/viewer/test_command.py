@@ -21,7 +21,7 @@ def test_it_tells_an_address_serves_it_and_stops_when_interrupted(tmp_path):
     words = [sys.executable, "-m", "trihex", "view", "plan.npz", "--no-browser"]
     with subprocess.Popen(words, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
         address = re.search(r"http://127\.0\.0\.1:\d+/[\w-]{20,}/", process.stdout.readline())
-        with build_opener(ProxyHandler({})).open(address[0], timeout=20) as page:
+        with build_opener(ProxyHandler({})).open(address[0], timeout=180) as page:
             assert b"<title>trihex</title>" in page.read()
         process.send_signal(signal.SIGINT)
         assert process.stdout.read() == "Ctrl-C stops it.\nstopped\n"

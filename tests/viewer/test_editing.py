@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import trihex as th
+from tests.sweeps import swept
 from tests.viewer.pages import is_near
 from trihex.pictures import palette
 from trihex.planners import make_plan
@@ -27,7 +28,7 @@ def walls(shown):
     return sorted(zip(x.tolist(), y.tolist(), strict=True))
 
 
-@pytest.mark.parametrize("tessellation", ["triangular", "hexagonal", "square"])
+@pytest.mark.parametrize("tessellation", ["triangular", "hexagonal", "square"][: swept(3)])
 def test_things_are_placed_moved_and_taken_away(open_viewer, tessellation):
     shown = open_viewer(small(tessellation))
     shown.press("Robot")

@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 
 import trihex as th
+from tests.viewer.pages import PATIENCE
 from trihex.viewer.bundle import decode, encode
 from trihex.viewer.desk import Desk
 from trihex.viewer.document import document_of
@@ -34,7 +35,7 @@ def viewing(tmp_path):
 def request(viewing, method="GET", path="", body=None, **headers):
     """Return (status, headers, body) of a request; a header None is left out."""
     address = urlsplit(viewing.address)
-    connection = http.client.HTTPConnection(address.hostname, address.port, timeout=20)
+    connection = http.client.HTTPConnection(address.hostname, address.port, timeout=180)
     given = {"Host": address.netloc, **{name.replace("_", "-"): value for name, value in headers.items()}}
     if method == "POST" and "Origin" not in given:
         given["Origin"] = f"http://{address.netloc}"
@@ -135,7 +136,7 @@ def test_a_gigabyte_is_refused_before_it_is_sent(viewing):
 def test_a_gigabyte_that_does_not_tell_its_size_is_cut_off(viewing):
     address = urlsplit(viewing.address)
     sent, piece = 0, b"100000\r\n" + bytes(2**20) + b"\r\n"
-    with socket.create_connection((address.hostname, address.port), timeout=20) as connection:
+    with socket.create_connection((address.hostname, address.port), timeout=180) as connection:
         head = f"POST {address.path}ask HTTP/1.1\r\nHost: {address.netloc}\r\nOrigin: http://{address.netloc}\r\n"
         connection.sendall(f"{head}Transfer-Encoding: chunked\r\n\r\n".encode())
         with suppress(ConnectionError):
@@ -235,18 +236,18 @@ def test_work_stops_when_the_page_goes_away(viewing):
     document = document_of(th.formats.draft.Draft(th.Area("triangular", np.zeros((512, 512))), np.array([0])))
     body = encode({"op": "generations", "document": document.header}, document.arrays)
     address = urlsplit(viewing.address)
-    before = threading.active_count()
-    with socket.create_connection((address.hostname, address.port), timeout=20) as connection:
+    before = set(threading.enumerate())
+    with socket.create_connection((address.hostname, address.port), timeout=180) as connection:
         head = f"POST {address.path}ask HTTP/1.1\r\nHost: {address.netloc}\r\nOrigin: http://{address.netloc}\r\n"
         connection.sendall(f"{head}Content-Length: {len(body)}\r\n\r\n".encode() + body)
         seen = b""
         while b"cells" not in seen:  # the first generations
             seen += connection.recv(2**16)
-        assert seen.startswith(b"HTTP/1.1 200") and threading.active_count() > before
-    end = monotonic() + 30
-    while threading.active_count() > before and monotonic() < end:
+        assert seen.startswith(b"HTTP/1.1 200") and set(threading.enumerate()) - before
+    end = monotonic() + 180
+    while (left := set(threading.enumerate()) - before) and monotonic() < end:
         sleep(0.05)
-    assert threading.active_count() == before
+    assert not left
 
 
 ATTACK = """<!DOCTYPE html><title>attack</title><script>
@@ -305,6 +306,7 @@ def test_a_page_of_another_origin_gets_nothing_even_with_the_token(viewing, brow
     try:
         with other_site(ATTACK.replace("ADDRESS", viewing.address)) as site:
             page = browser.new_page()
+            page.set_default_timeout(PATIENCE)
             page.goto(site)
             page.wait_for_function("() => document.title.startsWith('{')")
             results = json.loads(page.title())

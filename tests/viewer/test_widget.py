@@ -97,7 +97,7 @@ def test_a_live_run_is_driven_in_the_notebook_and_had_back(in_notebook):
     widget = th.make_widget(th.Scenario(area, [(15, 2)], [(0, 0), (1, 3)]), height=700)
     assert widget.run is None
     shown = in_notebook(widget)
-    shown.page.get_by_label("Steps per second").fill("4")
+    shown.page.get_by_label("Steps per second").fill("1")  # one step a second
     shown.press("Run live")
     shown.press("Pause")
     shown.wait("app.live && app.live.last.step && app.live.fraction === 1 && !app.live.isAsking")

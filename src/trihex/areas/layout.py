@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas.tessellation import Tessellation
 from trihex.record import Record, read_only
+
+if TYPE_CHECKING:
+    from trihex.areas.tessellation import Tessellation  # which makes layouts
 
 
 @dataclass(frozen=True, eq=False)

@@ -151,6 +151,19 @@ class Scenario(Record):
             fill_moves(blocked, start, min(start + _BLOCK, end), corners, one_way, other_way, moves)
         return read_only(moves)
 
+    def moves_closed_by(self, corners: str) -> NDArray[np.uint16]:
+        """Return the moves that a corner rule closes though they lead to free cells, bits as in `moves`.
+
+        Examples
+        --------
+        >>> scenario = Scenario(Area("square", [[0, 1], [0, 0]]), destinations=[(0, 0)])
+        >>> int(scenario.moves_closed_by("no-cut")[scenario.area.layout.origin]).bit_count()
+        1
+        """
+        lone = self.with_robots(())
+        closed: NDArray[np.uint16] = replace(lone, corners="allow").moves & ~replace(lone, corners=corners).moves
+        return read_only(closed)
+
     def with_robots(self, robots: Any, seed: int | None = None) -> Scenario:
         """Return the same scenario with other robots."""
         return replace(self, robots=robots, seed=seed)

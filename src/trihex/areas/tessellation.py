@@ -173,6 +173,23 @@ class Tessellation(Record):
         return read_only(np.array(ring, dtype=np.int32).reshape(-1, 2))
 
     @cached_property
+    def bend_of_direction(self) -> NDArray[np.float64]:
+        """From the middle of each move to the lattice vertex that it passes, in edge steps, shaped as the steps.
+
+        0 but on triangles: their vertex moves to cells of the same orientation lead round a corner.
+        """
+        bends = np.zeros(self.step_of_direction.shape)
+        for side in range(2):
+            here = np.array(self.centre_of_cell(side, 0))
+            for k in range(self.edge_count, self.direction_count):
+                dx, dy = self.step_of_direction[side, k]
+                # The vertex is the middle of the cells around it.
+                around = self.steps_around_vertex + self.vertex_step_of_direction[side, k] + (side, 0)
+                vertex = np.mean(self.centre_of_cell(around[:, 0], around[:, 1]), axis=1)
+                bends[side, k] = vertex - (here + np.array(self.centre_of_cell(side + dx, dy))) / 2
+        return read_only(bends)
+
+    @cached_property
     def cost_of_direction(self) -> NDArray[np.int32]:
         """Cost of a move in each direction, shape (directions,); the same for both orientations."""
         if self.costs == "paper":

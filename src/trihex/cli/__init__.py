@@ -22,6 +22,7 @@ COMMANDS = {
     "show": "Tell what an area is like.",
     "generate": "Make an area: random, rooms, maze, caves or warehouse.",
     "convert": "Write a plan, an area or a scenario in another format.",
+    "warmup": "Compile everything beforehand.",
 }
 
 

@@ -29,8 +29,8 @@ def command(plan: Path, area: Path | None, limit: int, summary: Path | None, **o
 
     Exit status 1: the plan is unsafe.
     """
-    from trihex.cli.texts import conflict_lines, verdict
-    from trihex.judging import audit_plan
+    from trihex.cli.texts import conflict_lines, corner_lines, verdict
+    from trihex.judging import audit_plan, count_corner_moves
 
     check_outputs((summary, (), "a summary"))
     judged = read_judged(plan, area, options, for_judge=True)
@@ -41,6 +41,9 @@ def command(plan: Path, area: Path | None, limit: int, summary: Path | None, **o
     if str(summary) != "-":
         robots, arrived = judged.scenario.robot_count, int(judged.arrived.sum())
         click.echo(f"{plan}: {arrived} of {robots} robots arrive in {judged.steps} steps; {verdict(audit)}")
+        counts = (count_corner_moves(judged, rule) for rule in ("no-cut", "no-squeeze"))
+        for line in corner_lines(judged, *counts):
+            click.echo(line)
     if audit.is_clean:
         return DONE
     click.echo("\n".join(conflict_lines(audit, limit)), err=str(summary) == "-")

@@ -9,9 +9,9 @@ import click
 
 from trihex.cli.group import DONE, NO
 from trihex.cli.options import PATH, area_options, complete, read_described, robot_options, rule_options, wrong_use
-from trihex.cli.outputs import check_outputs
+from trihex.cli.outputs import check_outputs, tell_written
 from trihex.cli.progress import bar
-from trihex.cli.types import Names
+from trihex.cli.types import Names, Planners
 from trihex.errors import AreaError, ScenarioError
 
 if TYPE_CHECKING:
@@ -25,8 +25,8 @@ if TYPE_CHECKING:
 @robot_options
 @click.option(
     "--planners",
-    type=Names("trihex.planners", "PLANNERS"),
-    help="Which planners. [default: greedy,fcost; optimal, too, in the small]",
+    type=Planners("trihex.planners", "PLANNERS"),
+    help="Which planners; options follow as in fcost:rule=paper. [default: greedy,fcost; optimal, too, in the small]",
 )
 @click.option(
     "--tessellations",
@@ -67,7 +67,9 @@ def command(
         write_values(rows, out)
     if picture:
         _draw(rows, picture)
-    return _told(comparison, rows)
+    status = _told(comparison, rows)
+    tell_written(out, picture)
+    return status
 
 
 def _default_planners(scenarios: list[Scenario]) -> tuple[str, ...]:
@@ -83,10 +85,10 @@ def _scenarios(path: Path, names: tuple[str, ...], options: dict[str, Any]) -> l
     """
     from trihex.areas import TESSELLATIONS
     from trihex.files import read_bytes
-    from trihex.formats import format_of
+    from trihex.formats import FORMATS, format_of
     from trihex.studies import on_tessellations
 
-    if options["cell_size"] is None or format_of(read_bytes(path), path) in ("movingai", "letters"):
+    if options["cell_size"] is None or FORMATS[format_of(read_bytes(path), path)].is_of_letters:
         scenario = complete(read_described(path, options))
         own = () if scenario.area.frame is None else (scenario.area.tessellation.name,)
         return on_tessellations(scenario, names or own or TESSELLATIONS)
@@ -107,8 +109,7 @@ def _draw(rows: list[dict[str, Any]], path: Path) -> None:
     from trihex.files import new_file
     from trihex.pictures import draw_comparison
 
-    drawn = [{**row, "optimal": row["is_proven"] and row["gap"] == 0} for row in rows if row["gap"] is not None]
-    ax = draw_comparison(drawn)
+    ax = draw_comparison(rows)
     with new_file(path) as part:
         ax.figure.savefig(part)
 

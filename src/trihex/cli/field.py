@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import click
 
 from trihex.cli.options import PATH, area_options, complete, gathered, read_described, rule_options, wrong_use
-from trihex.cli.outputs import check_outputs
+from trihex.cli.outputs import check_outputs, tell_written
 from trihex.cli.progress import bar
 from trihex.cli.tiles import Tiling, make_tiles
 from trihex.cli.types import Whole
@@ -35,8 +35,8 @@ class Outputs(NamedTuple):
     metavar="FILE",
     help="The D-scheme as .npy, uint16 [y, x].",
 )
-@click.option("--picture", type=PATH, metavar="FILE", help="The N-scheme drawn, as .png or .svg.")
-@click.option("--directions-picture", type=PATH, metavar="FILE", help="The D-scheme drawn, as .png or .svg.")
+@click.option("--picture", type=PATH, metavar="FILE", help="The N-scheme drawn, as .png, .svg or .pdf.")
+@click.option("--directions-picture", type=PATH, metavar="FILE", help="The D-scheme drawn, as .png, .svg or .pdf.")
 @click.option("--generations", type=PATH, metavar="DIR", help="A picture of every generation of the automaton.")
 @click.option("--tile", type=Whole(2), help="Areas in .npy or .zarr: cells along a tile, even. [default: 2048]")
 @click.option("--jobs", type=Whole(1), help="Areas in .npy or .zarr: processes that settle tiles. [default: 1]")
@@ -62,12 +62,15 @@ def command(area: Path, outputs: Outputs, tiling: Tiling, **options: Any) -> Non
     from trihex.fields import make_n_scheme
 
     _check_outputs(outputs)
-    scenario = complete(read_described(area, options), needs_robots=False)
+    drawn = ("picture",) if outputs.picture or outputs.directions_picture else ()
+    directed = ("d_scheme",) if outputs.directions or outputs.directions_picture else ("n_scheme",)
+    scenario = complete(read_described(area, options), *directed, *drawn, needs_robots=False)
     n_scheme = make_n_scheme(scenario)
     _write(n_scheme, outputs)
     _tell(n_scheme)
+    tell_written(outputs.out, outputs.directions, outputs.picture, outputs.directions_picture)
     if outputs.generations:
-        click.echo(f"{_draw_generations(scenario, outputs.generations)} generations in {outputs.generations}")
+        click.echo(f"{_draw_generations(n_scheme, outputs.generations)} generations in {outputs.generations}")
 
 
 def _check_outputs(outputs: Outputs) -> None:
@@ -104,31 +107,24 @@ def _tell(n_scheme: Any) -> None:
     """Print how much of the area reaches a destination, and how far it is."""
     from trihex.kernels.codes import NOT_REACHED
 
-    area = n_scheme.scenario.area
-    reached = n_scheme.distance[n_scheme.distance != NOT_REACHED]
+    area, reached = n_scheme.scenario.area, int((n_scheme.distance != NOT_REACHED).sum())
     click.echo(
-        f"{area.name}: {reached.size} of {area.free_count} free cells reach a destination, "
-        f"the farthest at cost {reached.max()}"
+        f"{area.name}: {reached} of {area.free_count} free cells reach a destination, "
+        f"the farthest at cost {n_scheme.farthest}"
     )
 
 
-def _draw_generations(scenario: Any, folder: Path) -> int:
-    """Draw each generation; return how many there are."""
-    import numpy as np
+def _draw_generations(n_scheme: Any, folder: Path) -> int:
+    """Draw each generation, all in the colours of the N-scheme; return how many there are."""
+    from trihex.fields import distance_generations
+    from trihex.pictures import picture_of_generation
 
-    from trihex.fields import OBSTACLE, NScheme, distance_generations
-    from trihex.kernels.codes import NOT_REACHED
-    from trihex.pictures import picture_of_n_scheme
-
-    layout = scenario.area.layout
-    sites = layout.cell_to_site(np.arange(scenario.area.cell_count))
+    scenario, far, count = n_scheme.scenario, n_scheme.farthest, 0
     folder.mkdir(parents=True, exist_ok=True)
-    count = 0
     with bar("drawing", "generations") as progress:
         for states in distance_generations(scenario):
-            distance = np.full(layout.size, NOT_REACHED, dtype=np.int32)
-            distance[sites] = np.where(states == OBSTACLE, NOT_REACHED, states).reshape(-1)
-            drawn = picture_of_n_scheme(NScheme(scenario, distance), title=f"{scenario.area.name}, generation {count}")
+            title = f"{scenario.area.name}, generation {count}"
+            drawn = picture_of_generation(scenario, states, count, far=far, title=title)
             drawn.save(folder / f"generation-{count:04d}.png")
             count += 1
             progress(count, count)

@@ -31,7 +31,7 @@ from trihex.cli.types import Name, Pair, Share, Whole
 @click.option("--aisle", type=Whole(1), help="warehouse: cells between shelves.")
 @click.option("--missing", type=Share(), help="warehouse: share of the shelves left out.")
 @click.option("--out", type=PATH, metavar="AREA", required=True, help="The area, as .map or .txt.")
-@click.option("--picture", type=PATH, metavar="FILE", help="The area drawn, as .png or .svg.")
+@click.option("--picture", type=PATH, metavar="FILE", help="The area drawn, as .png, .svg or .pdf.")
 def command(
     kind: str,
     size: tuple[int, int],

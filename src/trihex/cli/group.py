@@ -16,8 +16,9 @@ from typing import Any, NoReturn
 
 import click
 
+from trihex.cli.progress import show_compiling
 from trihex.errors import TrihexError
-from trihex.kernels import loading
+from trihex.kernels import loading, preparing
 
 # Exit statuses. A command returns DONE (or None) or NO; the others are given here.
 DONE = 0
@@ -70,6 +71,7 @@ class Commands(click.Group):
         """Run the command that `args` name, and exit with its status."""
         status: int = FAULT
         loading.is_alone = True
+        preparing.watch = show_compiling
         if isinstance(sys.stdout, TextIOWrapper):  # a path is told as it is, even if it is not UTF-8
             sys.stdout.reconfigure(errors="surrogateescape")
         if threading.current_thread() is threading.main_thread():

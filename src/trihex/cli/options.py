@@ -184,12 +184,24 @@ def _cell_of(area: Area, place: tuple[Any, Any]) -> tuple[int, int]:
     return int(x), int(y)
 
 
-def complete(draft: Draft, *, needs_robots: bool = True) -> Scenario:
-    """Return the scenario of a draft, or tell which option would complete it."""
+def complete(draft: Draft, *uses: str, needs_robots: bool = True) -> Scenario:
+    """Return the scenario of a draft, or tell which option would complete it.
+
+    Before robots are drawn, kernels for `uses` are compiled and loaded (`trihex.kernels.preparing`), all at once and
+    so that the seconds told later are those of the work; but not before what the user said is known to be right.
+    """
+    from dataclasses import replace
+
+    from trihex.fields import field_kernels
+    from trihex.kernels.preparing import prepare
+
     if draft.destinations is None:
         raise wrong_use("there is no destination: add --destination X,Y")
     if needs_robots and draft.robots is None and draft.random_count is None:
         raise wrong_use("there are no robots: add --robots N or --starts FILE")
+    replace(draft, random_count=None).complete()
+    if uses:
+        prepare(*uses, field_kernels(draft.area.tessellation, draft.corners or "allow"))
     return draft.complete()
 
 

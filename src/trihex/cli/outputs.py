@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
+import click
+
 from trihex.cli.options import wrong_use
 
 
@@ -17,8 +19,19 @@ def check_outputs(*outputs: tuple[Path | None, Iterable[str], str]) -> None:
         if path is None or str(path) == "-":
             continue
         if allowed := tuple(suffixes):
-            suffix_of(path, allowed, kind)
+            suffix = suffix_of(path, allowed, kind)
+            if suffix == ".pdf" or kind == "a chart":
+                from trihex.pictures import check_matplotlib
+
+                check_matplotlib(kind if suffix != ".pdf" else f"{kind} in PDF")
         check_output(path)
         if path in seen:
             raise wrong_use(f"two outputs must not have one name, {path}")
         seen.add(path)
+
+
+def tell_written(*paths: Path | None) -> None:
+    """Name the files that were written; the standard output (-) is none."""
+    names = [str(path) for path in paths if path is not None and str(path) != "-"]
+    if names:
+        click.echo(f"written: {', '.join(names)}")

@@ -19,7 +19,7 @@ from trihex.cli.options import (
     rule_options,
     wrong_use,
 )
-from trihex.cli.outputs import check_outputs
+from trihex.cli.outputs import check_outputs, tell_written
 from trihex.cli.progress import bar
 from trihex.cli.types import Metres, Name
 
@@ -43,7 +43,7 @@ class Outputs(NamedTuple):
 @click.option("--planner-option", metavar="NAME=VALUE", multiple=True, help="One of its options; may be repeated.")
 @click.option("--out", "plan", type=PATH, metavar="PLAN", help="The plan, as .csv or .npz.")
 @click.option("--summary", type=PATH, metavar="FILE", help="The report as JSON; - writes it to the standard output.")
-@click.option("--picture", type=PATH, metavar="FILE", help="The plan drawn, as .png or .svg.")
+@click.option("--picture", type=PATH, metavar="FILE", help="The plan drawn, as .png, .svg or .pdf.")
 @click.option("--waypoints", type=PATH, metavar="FILE", help="Where each robot is when, in metres and seconds.")
 @click.option("--speed", type=Metres(), help="Of the robots, in metres a second. [default: 1.0]")
 @click.option("--write-scenario", type=PATH, metavar="FILE", help="All that was planned, as a scenario .toml.")
@@ -71,10 +71,10 @@ def command(
     seconds = {"read": perf_counter() - begin}
     outputs = draft.outputs | outputs
     _check_outputs(outputs, write_scenario)
-    scenario = complete(draft)
     planner = planner or draft.planner or "fcost"
     planner_options = {**(draft.planner_options if planner == draft.planner else {}), **_parsed(planner_option)}
     _check_options(planner, planner_options)
+    scenario = complete(draft, *_uses(planner, outputs))
     if "waypoints" in outputs and scenario.area.frame is None:
         raise wrong_use("--waypoints are in metres: add --cell-size")
     report = _reported(scenario, planner, planner_options, seconds)
@@ -84,7 +84,16 @@ def command(
 
         kept = {name: value for name, value in outputs.items() if str(value) != "-"}
         write_scenario_file(scenario, write_scenario, planner=planner, planner_options=planner_options, outputs=kept)
-    return _told(report, outputs.get("summary"))
+    status = _told(report, outputs.get("summary"))
+    if str(outputs.get("summary")) != "-":
+        tell_written(*(outputs.get(name) for name in ("plan", "summary", "picture", "waypoints")), write_scenario)
+    return status
+
+
+def _uses(planner: str, outputs: dict[str, Any]) -> list[str]:
+    """Return what kernels are for."""
+    judged = ["audit"] if planner == "optimal" else ["audit", "bound"]
+    return [planner, *judged, *(use for name, use in (("plan", "table"), ("picture", "picture")) if name in outputs)]
 
 
 def _check_outputs(outputs: dict[str, Any], write_scenario: Path | None) -> None:

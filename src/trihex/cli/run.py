@@ -18,7 +18,7 @@ from trihex.cli.options import (
     rule_options,
     wrong_use,
 )
-from trihex.cli.outputs import check_outputs
+from trihex.cli.outputs import check_outputs, tell_written
 from trihex.cli.progress import bar
 from trihex.cli.types import Amount, Name, Seconds, Share, Whole
 
@@ -69,7 +69,7 @@ class Outputs(NamedTuple):
 @click.option("--max-steps", type=Whole(1), default=1_000_000, help="Stop after so many steps. [default: 1000000]")
 @click.option("--out", type=PATH, metavar="RUN", help="What happened, as .npz.")
 @click.option("--summary", type=PATH, metavar="FILE", help="The report as JSON; - writes it to the standard output.")
-@click.option("--picture", type=PATH, metavar="FILE", help="What robots came to know, as .png or .svg.")
+@click.option("--picture", type=PATH, metavar="FILE", help="What robots came to know, as .png, .svg or .pdf.")
 @click.option("--animation", type=PATH, metavar="FILE", help="The robots on their way, as .gif or .mp4.")
 @gathered("beginning", Beginning)
 @gathered("way", Way)
@@ -104,7 +104,10 @@ def command(beginning: Beginning, way: Way, outputs: Outputs, max_steps: int, **
             write_run(run, outputs.out, progress=progress)
     report = make_run_report(run, **told)
     _draw(run, outputs)
-    return _told(report, outputs.summary, is_over=is_over)
+    status = _told(report, outputs.summary, is_over=is_over)
+    if str(outputs.summary) != "-":
+        tell_written(*outputs)
+    return status
 
 
 def _check_outputs(outputs: Outputs) -> None:
@@ -142,7 +145,7 @@ def _trial_of(beginning: Beginning, way: Way, events: Any, options: dict[str, An
     if beginning.area is None:
         raise wrong_use("there is no AREA: name one, or add --plan PLAN or --resume RUN")
     draft = read_described(beginning.area, options)
-    scenario = complete(draft)
+    scenario = complete(draft, "trial", way.planner or draft.planner or "fcost", "bound")
     sensor = None if way.sense is None else Sensor(scenario.area.tessellation, way.sense, way.line_of_sight)
     return Trial(
         scenario,

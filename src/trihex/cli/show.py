@@ -24,7 +24,8 @@ def command(area: Path, columns: int, **options: Any) -> None:
     """Tell size, free share and connected parts of an area, and draw it.
 
     In the drawing, D is a destination and o a robot of the file; of the cells that another letter stands for, none
-    (.), less than half (:), half and more (+) or all (#) are barriers.
+    (.), less than half (:), half and more (+) or all (#) are barriers. Small areas, by default of up to 72 x 48
+    cells, have a letter for each cell.
     """
     from trihex.pictures import preview_lines
 

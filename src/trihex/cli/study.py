@@ -13,6 +13,7 @@ import click
 
 from trihex.cli.group import DONE, NO
 from trihex.cli.options import PATH, wrong_use
+from trihex.cli.progress import bar
 from trihex.cli.types import Whole
 
 _SECONDS_BETWEEN_LINES = 60
@@ -65,29 +66,21 @@ def _workers(scheduler: str | None) -> Any:
 @contextmanager
 def _progress() -> Iterator[Callable[[int, int], None]]:
     """Yield what shows how far the runs are and how long the rest will take: a bar, or unwatched a line a minute."""
-    from tqdm import tqdm
+    if sys.stderr.isatty():
+        with bar("running", "runs") as move:
+            yield move
+        return
+    first, begin, last = -1, monotonic(), monotonic()
 
-    shown: Any = None
-    first, begin, last = 0, monotonic(), monotonic()
-
-    def move(done: int, total: int) -> None:
-        nonlocal shown, first, last
-        if shown is None:
-            first = done
-            # Runs differ much, so the mean of all tells more of the rest than the last few do.
-            shown = tqdm(total=total, initial=done, unit=" runs", disable=None, delay=1, leave=False, smoothing=0)
-        shown.update(done - shown.n)
-        now = monotonic()
-        if not sys.stderr.isatty() and now - last >= _SECONDS_BETWEEN_LINES and first < done < total:
+    def tell(done: int, total: int) -> None:
+        nonlocal first, last
+        first, now = done if first < 0 else first, monotonic()
+        if now - last >= _SECONDS_BETWEEN_LINES and first < done < total:
             left = (now - begin) / (done - first) * (total - done)
             click.echo(f"trihex: {done} of {total} runs, about {_told(left)} left", err=True)
             last = now
 
-    try:
-        yield move
-    finally:
-        if shown is not None:
-            shown.close()
+    yield tell
 
 
 def _told(seconds: float) -> str:

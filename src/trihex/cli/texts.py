@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from trihex.areas import Scenario
     from trihex.judging import Audit, Report
+    from trihex.plans import Plan
 
 _MOST_ROBOTS = 100
 
@@ -26,8 +27,20 @@ def report_lines(report: Report) -> list[str]:
         f"total time {report.total_time} ({report.total_distance} moving, {report.total_waiting} waiting), "
         f"lower bound {report.lower_bound} ({report.lower_bound_name}), gap {gap}",
         verdict(report.audit),
+        *corner_lines(report.plan, report.corner_moves, report.squeezing_moves),
         *([seconds] if seconds else []),
     ]
+
+
+def corner_lines(plan: Plan, count: int, between: int) -> list[str]:
+    """Return a line that says how many moves pass the corner of a barrier and what forbids it, or none."""
+    if not count:
+        return []
+    area = plan.scenario.area
+    place = "a barrier" if area.free_count < area.cell_count else "the border"
+    moves = "1 move passes" if count == 1 else f"{count} moves pass"
+    squeezing = f", {between} of them between two" if between else ""
+    return [f"{moves} the corner of {place}{squeezing}; --corners no-cut forbids it"]
 
 
 def verdict(audit: Audit) -> str:

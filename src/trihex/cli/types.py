@@ -48,6 +48,23 @@ class Names(Name):
         return tuple(dict.fromkeys(one(part.strip(), param, ctx) for part in str(value).split(",")))
 
 
+class Planners(Names):
+    """Several planners, each with its options if it has any, as in ``greedy,fcost:rule=paper``."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return the planners in the order given, each once."""
+        from trihex.planners import planner_from
+
+        named = [part.strip() for part in str(value).split(",")]
+        for planner in named:
+            Name.convert(self, planner.partition(":")[0].strip(), param, ctx)
+            try:
+                planner_from(planner)
+            except TrihexError as error:
+                raise click.UsageError(f"{_name_of(param)}: {error}", ctx) from None
+        return tuple(dict.fromkeys(named))
+
+
 class Whole(click.ParamType):  # type: ignore[type-arg]
     """A whole number from `least` on."""
 

@@ -29,6 +29,7 @@ def command(file: Path | None, area: Path | None, port: int, no_browser: bool, *
     """
     from trihex.files import read_bytes
     from trihex.formats import FORMATS, format_of
+    from trihex.kernels.preparing import prepare
     from trihex.viewer import open_viewer
 
     if file is None and any(value not in (None, ()) for value in options.values()):
@@ -41,6 +42,7 @@ def command(file: Path | None, area: Path | None, port: int, no_browser: bool, *
         if area is not None and not is_plan:
             raise wrong_use(f"AREA belongs to a plan; {file} is none")
         record = read_judged(file, area, options) if is_plan else read_described(file, options)
+    prepare("fcost", "audit", "bound", "trial")  # or the first click would wait for it, and nobody would know why
     try:
         open_viewer(record, port=port, browser=not no_browser, tell=_tell)
     except KeyboardInterrupt:

@@ -18,6 +18,9 @@ from .schemes import (
     make_d_scheme as make_d_scheme,
     make_n_scheme as make_n_scheme,
 )
+from .settling import (
+    field_kernels as field_kernels,
+)
 from .steps import (
     steps_to_destination as steps_to_destination,
 )

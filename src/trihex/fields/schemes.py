@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from trihex.areas import Scenario, cells_from
 from trihex.errors import ScenarioError
 from trihex.fields.living import LivingField
-from trihex.fields.settling import settle
+from trihex.fields.settling import are_moves_masked, settle
 from trihex.kernels.codes import NOT_REACHED
 from trihex.record import Record, read_only
 
@@ -44,6 +44,11 @@ class NScheme(Record):
     def distance(self) -> NDArray[np.int32]:
         """Distance of each cell, a read-only view of shape (height, width)."""
         return self.scenario.area.layout.cells_of(self.distance_of_site)  # type: ignore[return-value]
+
+    @cached_property
+    def farthest(self) -> int:
+        """The largest distance of a cell from which a destination is reached."""
+        return int(self.distance.max(initial=0, where=self.distance != NOT_REACHED))
 
     def distance_of_cell(self, cells: ArrayLike) -> NDArray[np.int32]:
         """Return the distance of cells given by number."""
@@ -210,8 +215,7 @@ def _settle(
 ) -> int:
     """Settle `distance`, all of it or until the robots' are known, and return the horizon."""
     area, layout, tessellation = scenario.area, scenario.area.layout, scenario.area.tessellation
-    # Corner rules concern vertex moves alone; where there are none, all that a kernel need know is the barriers.
-    is_masked = scenario.corners != "allow" and tessellation.edge_count < tessellation.direction_count
+    is_masked = are_moves_masked(tessellation, scenario.corners)
     sites = layout.cell_to_site(scenario.destinations)
     waiting, done = layout.cell_to_site(scenario.robots), 0
 

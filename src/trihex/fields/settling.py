@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Layout
+from trihex.areas import Layout, Tessellation
 from trihex.errors import ScenarioError
 from trihex.fields.front import FrontTable, make_front_table
 from trihex.kernels.codes import NOT_REACHED
+from trihex.kernels.needs import Kernels
 
 _BUDGET = 1 << 16  # cells settled in one call of a kernel, about 1 ms
 _FIRST_BUDGET = 1 << 13  # enough to see how long the fronts are
@@ -85,6 +87,18 @@ def settle(
             buckets = given(kernels.Buckets, state, lists.reshape(-1), seeds, value_of_seed)
             state[:] = 0
         budget = _BUDGET
+
+
+def field_kernels(tessellation: Tessellation, corners: str = "allow") -> Kernels:
+    """Return which kernel settles fields on a tessellation under a corner rule; each shape of moves has its own."""
+    is_masked = are_moves_masked(tessellation, corners)
+    slots = make_front_table(tessellation.layout(1, 1), not is_masked).slots
+    return Kernels("trihex.fields.kernels.buckets", "make_settle", json.dumps([slots, is_masked]))
+
+
+def are_moves_masked(tessellation: Tessellation, corners: str) -> bool:
+    """Tell whether a field must know the open moves: without corner rules or vertex moves, barriers tell all."""
+    return corners != "allow" and tessellation.edge_count < tessellation.direction_count
 
 
 class _Steps(NamedTuple):

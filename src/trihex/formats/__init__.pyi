@@ -17,6 +17,7 @@ from .recognise import (
 )
 from .registry import (
     FORMATS as FORMATS,
+    WRITERS as WRITERS,
 )
 from .report_json import (
     report_text as report_text,
@@ -38,6 +39,7 @@ from .starts.starts import (
 )
 from .text import (
     check_text as check_text,
+    read_text as read_text,
 )
 from .toml import (
     complaint as complaint,

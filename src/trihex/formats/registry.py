@@ -50,6 +50,8 @@ class Format:
         Of a file of text.
     brings_scenario : bool
         Whether a plan needs none to be named.
+    is_of_letters : bool
+        Whether one character of an area is one cell, of whatever shape.
     """
 
     name: str
@@ -61,6 +63,7 @@ class Format:
     is_text: bool = True
     most_bytes: int = MAX_BYTES
     brings_scenario: bool = False
+    is_of_letters: bool = False
 
     @cached_property
     def _compiled(self) -> re.Pattern[bytes]:
@@ -100,7 +103,7 @@ _FORMATS = (
     ),
     Format(
         "movingai", "a MovingAI map", "area", "areas.movingai.parse_movingai",
-        rb"\A(?:.*\n){0,3}(?:(?:type|height|width)\s|map\s*$)", (".map",),
+        rb"\A(?:.*\n){0,3}(?:(?:type|height|width)\s|map\s*$)", (".map",), is_of_letters=True,
     ),
     Format("scen", "starts (.scen)", "starts", "starts.scen.parse_scen", rb"\A[^\S\n]*version(?:\s|\Z)", (".scen",)),
     Format(
@@ -121,7 +124,7 @@ _FORMATS = (
         rb"^\s*(?:\[\[?[\w.\"' -]+\]\]?\s*(?:#.*)?$|[\w.\"'-]+\s*=)", (".toml",),
         most_bytes=MAX_TOML, brings_scenario=True,
     ),
-    Format("letters", "letters", "area", "areas.letters.parse_letters", rb"(?!)"),  # all that is left
+    Format("letters", "letters", "area", "areas.letters.parse_letters", rb"(?!)", is_of_letters=True),  # what is left
 )  # fmt: skip
 FORMATS = {form.name: form for form in _FORMATS}
 

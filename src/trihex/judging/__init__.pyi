@@ -5,6 +5,9 @@ from .audit import (
 from .conflict import (
     Conflict as Conflict,
 )
+from .corners import (
+    count_corner_moves as count_corner_moves,
+)
 from .reach import (
     is_reachable as is_reachable,
 )

@@ -14,6 +14,8 @@ from trihex.areas import Claim
 from trihex.bounds import LowerBound, distance_bound, make_lower_bound
 from trihex.fields import NScheme, make_n_scheme
 from trihex.judging.audit import Audit, audit_plan
+from trihex.judging.corners import count_corner_moves
+from trihex.kernels.preparing import prepare
 from trihex.plans import Plan
 from trihex.record import Record
 
@@ -62,6 +64,16 @@ class Report(Record):
     def longest_time(self) -> int:
         """The largest t_r among the robots that arrive."""
         return int(self.plan.time_of_robot[self.plan.arrived].max(initial=0))
+
+    @cached_property
+    def corner_moves(self) -> int:
+        """Moves through a lattice vertex where a barrier or the border stands: those that corners="no-cut" forbids."""
+        return count_corner_moves(self.plan)
+
+    @cached_property
+    def squeezing_moves(self) -> int:
+        """Those of the corner moves with a barrier on either side, which corners="no-squeeze" forbids."""
+        return count_corner_moves(self.plan, "no-squeeze") if self.corner_moves else 0
 
     @property
     def steps(self) -> int:
@@ -135,6 +147,8 @@ class Report(Record):
             "gap": self.gap,
             "optimal": self.optimal,
             "conflicts": self.audit.conflict_count,
+            "corner_moves": self.corner_moves,
+            "squeezing_moves": self.squeezing_moves,
             "seconds": {part: self.seconds.get(part) for part in PARTS},
         }
 
@@ -166,6 +180,7 @@ def make_report(
     >>> report.total_time, report.lower_bound, round(report.gap, 3)
     (40, 30, 0.333)
     """
+    prepare(*("audit",) * (audit is None), *("bound",) * (lower_bound is None and not plan.optimal))
     n_scheme = make_n_scheme(plan.scenario) if n_scheme is None else n_scheme
     audit = audit_plan(plan) if audit is None else audit
     # Where the optimum is proven no bound is asked for, so a cheap one will do until that is known.

@@ -1,4 +1,4 @@
-"""Marks: which modules of kernels are known to be on disk, told without importing numba, which takes half a second."""
+"""Marks: which kernels are known to be on disk, told without importing numba, which takes half a second."""
 
 import os
 import sys
@@ -8,28 +8,29 @@ from hashlib import sha256
 from importlib.util import find_spec
 from pathlib import Path
 
+from trihex.kernels.needs import Kernels
 from trihex.kernels.sources import file_of, stamp_of
 
 
-def is_marked(module: str) -> bool:
-    """Tell whether all kernels of a module have been compiled here, from the sources as they are, and are there."""
+def is_marked(kernels: Kernels) -> bool:
+    """Tell whether kernels have been compiled here, from the sources as they are, and are still there."""
     for folder in _folders():
         try:
-            kept = (folder / _name_of(module)).read_text().splitlines()
+            kept = (folder / _name_of(kernels)).read_text().splitlines()
         except OSError:
             continue
         return all(os.path.exists(path) for path in kept)
     return False
 
 
-def mark(module: str, kept: list[str]) -> None:
-    """Note that the kernels of a module are in the files `kept`; where nothing can be written nothing is noted."""
+def mark(kernels: Kernels, kept: list[str]) -> None:
+    """Note that kernels are in the files `kept`; where nothing can be written nothing is noted."""
     for folder in _folders():
         try:
             folder.mkdir(parents=True, exist_ok=True)
-            part = folder / f"{_name_of(module)}.{os.getpid()}"
+            part = folder / f"{_name_of(kernels)}.{os.getpid()}"
             part.write_text("\n".join(kept))
-            part.replace(folder / _name_of(module))
+            part.replace(folder / _name_of(kernels))
         except OSError:
             continue
         return
@@ -55,9 +56,9 @@ def _folders() -> Iterator[Path]:
     yield Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "trihex"
 
 
-def _name_of(module: str) -> str:
-    made_by = [stamp_of(str(file_of(module))).hex(), _numba(), sys.version, _processor()]
-    return f"{module}.{sha256(repr(made_by).encode()).hexdigest()[:16]}.compiled"
+def _name_of(kernels: Kernels) -> str:
+    made_by = [repr(kernels), stamp_of(str(file_of(kernels.module))).hex(), _numba(), sys.version, _processor()]
+    return f"{kernels.module}.{sha256(repr(made_by).encode()).hexdigest()[:16]}.compiled"
 
 
 @cache

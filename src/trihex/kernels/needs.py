@@ -1,6 +1,82 @@
-"""Needs: which modules of kernels each use of trihex imports, so that they can be compiled beforehand."""
+"""Needs: which kernels each use of trihex takes, so that they can be compiled before the work begins."""
 
-_FIELD = ("areas.moves", "fields.buckets")
-_DIRECTIONS = (*_FIELD, "fields.directions")
-_GREEDY = (*_DIRECTIONS, "planners.greedy", "planners.rows", "plans.replay")
-_FCOST = (*_GREEDY, "planners.fcost", "planners.slots", "planners.lanes", "planners.laying", "fields.repair")
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from dataclasses import dataclass
+from importlib import import_module
+from typing import Any
+
+_FIELD = ("fields.front",)
+_DIRECTIONS = (*_FIELD, "areas.moves", "fields.directions")
+_REPAIR = (*_DIRECTIONS, "fields.repair", "fields.changing")
+_GREEDY = (*_DIRECTIONS, "planners.greedy", "planners.cells", "planners.rows", "plans.replay")
+_FCOST = (*_GREEDY, *_REPAIR, "planners.fcost", "planners.slots", "planners.lanes", "planners.laying")
+_ASTAR = (*_FIELD, "areas.moves", "planners.astar", "planners.reservations", "plans.replay")
+_OPTIMUM = ("fields.steps", "optimum.paths", "optimum.single", "optimum.levels", "optimum.earliest", "optimum.laid")
+_BOUND = ("areas.moves", "fields.steps", "bounds.cuts", "bounds.gates", "bounds.meetings", "bounds.serving")
+_EXECUTION = (*_REPAIR, "running.stepping", "running.lines")
+
+#: What each use needs, by names of modules: "fields.front" is ``trihex.fields.kernels.front``. What is needed seldom is
+#: not here; it is compiled when it is imported.
+KERNELS_OF: dict[str, tuple[str, ...]] = {
+    "n_scheme": _FIELD,
+    "d_scheme": _DIRECTIONS,
+    "greedy": _GREEDY,
+    "fcost": _FCOST,
+    "astar": _ASTAR,
+    "optimal": (*_FCOST, *_OPTIMUM),
+    "audit": ("judging.audit", "plans.replay"),
+    "bound": (*_BOUND, "bounds.steps", "bounds.units"),
+    "execution": _EXECUTION,
+    "trial": (*_EXECUTION, "running.sensing"),
+    "order": ("running.passing", "plans.replay"),
+    "picture": ("pictures.raster", "plans.replay"),
+    "table": ("formats.table_text",),
+    "archive": ("formats.escape",),
+}
+
+
+@dataclass(frozen=True)
+class Kernels:
+    """Kernels that are compiled together: those of a module, or what a function of it makes for some arguments.
+
+    Parameters
+    ----------
+    module : str
+    function : str
+    arguments : str
+        As JSON; lists become tuples.
+    """
+
+    module: str
+    function: str = ""
+    arguments: str = "[]"
+
+    def load(self) -> list[Any]:
+        """Import or make them, and return them; what is not on disk is compiled."""
+        module = import_module(self.module)
+        if not self.function:
+            return [thing for thing in vars(module).values() if hasattr(thing, "py_func")]
+        arguments = [tuple(one) if isinstance(one, list) else one for one in json.loads(self.arguments)]
+        return [getattr(module, self.function)(*arguments)]
+
+
+def kernels_of(uses: Iterable[str | Kernels]) -> list[Kernels]:
+    """Return what some uses need, each once.
+
+    Parameters
+    ----------
+    uses : iterable
+        Keys of `KERNELS_OF` (one that is not there needs none), or kernels themselves.
+    """
+    found: dict[Kernels, None] = {}
+    for use in uses:
+        if isinstance(use, Kernels):
+            found[use] = None
+            continue
+        for name in KERNELS_OF.get(use, ()):
+            package, module = name.split(".")
+            found[Kernels(f"trihex.{package}.kernels.{module}")] = None
+    return list(found)

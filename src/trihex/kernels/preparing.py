@@ -5,69 +5,81 @@ plan needs about thirty functions. So whoever is about to use kernels says for w
 as many processes as there are cores, and numba finds it on disk.
 """
 
+import json
 import logging
 import os
 import subprocess
 import sys
 from collections.abc import Callable
-from importlib import import_module
+from dataclasses import astuple
 from pathlib import Path
 from queue import Empty, SimpleQueue
 from threading import Thread
 from time import perf_counter
 
 from trihex.kernels.marks import can_keep, is_marked
-from trihex.kernels.needs import modules_of
+from trihex.kernels.needs import Kernels, kernels_of
 from trihex.kernels.sources import file_of
 
 Progress = Callable[[int, int], None]
 
 _LOG = logging.getLogger(__name__)
-_prepared: set[str] = set()
+_loaded: set[str | Kernels] = set()
+
+#: Called with (parts compiled, parts to compile) while anything is compiled, first with 0; the command line sets it.
+watch: Progress | None = None
 
 
-def prepare(*uses: str, progress: Progress | None = None) -> None:
+def prepare(*uses: str | Kernels) -> None:
     """Compile what some uses need and the disk lacks, and load it, so that what follows is work alone.
 
     Parameters
     ----------
-    *uses : str
-        Keys of `trihex.kernels.needs.KERNELS_OF`.
-    progress : callable, optional
-        Called with (modules compiled, modules to compile), at the beginning and after each; not if there are none.
+    *uses
+        Keys of `trihex.kernels.needs.KERNELS_OF` (one that is not there needs none), or kernels themselves.
     """
-    new = [name for name in modules_of(uses) if name not in _prepared]
-    _prepared.update(new)
-    missing = [name for name in new if name not in sys.modules and not is_marked(name)]
+    if _loaded.issuperset(uses):
+        return
+    new = [kernels for kernels in kernels_of(uses) if kernels not in _loaded]
+    missing = [kernels for kernels in new if not is_marked(kernels)]
     if len(missing) > 1 and sys.executable and can_keep():
         begin = perf_counter()
-        _LOG.info("compiling kernels, once: %d modules, for %s", len(missing), ", ".join(uses))
-        missing.sort(key=lambda name: -file_of(name).stat().st_size)  # what takes longest first
-        _compile(missing, progress or (lambda done, total: None))
+        _LOG.info("compiling kernels, once: %d parts", len(missing))
+        missing.sort(key=_effort, reverse=True)
+        _compile(missing, watch or (lambda done, total: None))
         _LOG.info("compiled in %.1f s", perf_counter() - begin)
-    for name in new:
-        import_module(name)
+    for kernels in new:
+        kernels.load()
+    _loaded.update(uses, new)
 
 
-def _compile(modules: list[str], progress: Progress) -> None:
-    """Let workers compile modules; one that fails is left to whoever imports it, who sees why."""
-    waiting: SimpleQueue[str] = SimpleQueue()
+def _effort(kernels: Kernels) -> int:
+    """Return a guess of how long compiling takes: what takes longest goes first, so that no core waits in the end."""
+    return file_of(kernels.module).stat().st_size
+
+
+def _compile(parts: list[Kernels], progress: Progress) -> None:
+    """Let workers compile; what fails is left to whoever imports it, who sees why."""
+    waiting: SimpleQueue[Kernels] = SimpleQueue()
     done: SimpleQueue[str] = SimpleQueue()
-    for module in modules:
-        waiting.put(module)
-    workers = [_start() for _ in range(min(_cores(), len(modules)))]
+    for part in parts:
+        waiting.put(part)
+    progress(0, len(parts))
+    workers = [_start() for _ in range(min(_cores(), len(parts)))]
     for worker in workers:
         Thread(target=_feed, args=(worker, waiting, done), daemon=True).start()
     try:
-        progress(0, len(modules))
-        for count in range(1, len(modules) + 1):
+        for count in range(1, len(parts) + 1):
             if failure := done.get():
                 _LOG.warning("kernels could not be compiled beforehand: %s", failure)
-            progress(count, len(modules))
+            progress(count, len(parts))
     finally:
         for worker in workers:
             worker.kill()
             worker.wait()
+            for pipe in (worker.stdin, worker.stdout):
+                if pipe is not None:
+                    pipe.close()
 
 
 def _start() -> "subprocess.Popen[str]":
@@ -83,19 +95,19 @@ def _start() -> "subprocess.Popen[str]":
     )
 
 
-def _feed(worker: "subprocess.Popen[str]", waiting: "SimpleQueue[str]", done: "SimpleQueue[str]") -> None:
-    """Hand one module after the other to a worker; of each, say that it is done, or what went wrong."""
+def _feed(worker: "subprocess.Popen[str]", waiting: "SimpleQueue[Kernels]", done: "SimpleQueue[str]") -> None:
+    """Hand one part after the other to a worker; of each, say that it is done, or what went wrong."""
     while True:
         try:
-            module = waiting.get_nowait()
+            part = waiting.get_nowait()
         except Empty:
             return
         try:
-            print(module, file=worker.stdin, flush=True)
+            print(json.dumps(astuple(part)), file=worker.stdin, flush=True)
             answer = worker.stdout.readline() if worker.stdout else ""
-        except OSError as error:
+        except (OSError, ValueError) as error:  # it has ended, or has been stopped
             answer = str(error)
-        done.put("" if answer == "\n" else f"{module}: {answer.strip() or 'the process ended'}")
+        done.put("" if answer == "\n" else f"{part.module}: {answer.strip() or 'the process ended'}")
 
 
 def _cores() -> int:

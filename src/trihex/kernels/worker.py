@@ -1,23 +1,23 @@
-"""Worker: a process that compiles the modules of kernels named on its standard input; see `preparing`."""
+"""Worker: a process that compiles what is named on its standard input, a line of JSON for each; see `preparing`."""
 
+import json
 import signal
 import sys
-from importlib import import_module
 
 from trihex.kernels import loading
 from trihex.kernels.marks import mark
+from trihex.kernels.needs import Kernels
 
 
 def main() -> None:
-    """Compile each module, mark it, and answer each line with one: an empty one, or what went wrong."""
+    """Compile and mark what each line names, and answer it with a line: an empty one, or what went wrong."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for who started it
     loading.is_alone = True
     for line in sys.stdin:
-        name = line.strip()
+        kernels = Kernels(*json.loads(line))
         try:
-            module = import_module(name)
-            caches = [thing._cache for thing in vars(module).values() if hasattr(thing, "_cache")]
-            mark(name, [one._cache_file._index_path for one in caches if hasattr(one, "_cache_file")])
+            files = [getattr(made._cache, "_cache_file", None) for made in kernels.load()]
+            mark(kernels, [file._index_path for file in files if file is not None])
         except Exception as error:
             print(f"{type(error).__name__}: {error}".replace("\n", " "), flush=True)
         else:

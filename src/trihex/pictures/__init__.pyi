@@ -1,8 +1,18 @@
 from .area_picture import (
     picture_of_area as picture_of_area,
 )
+from .axes import (
+    check_matplotlib as check_matplotlib,
+)
+from .charts import (
+    draw_arrivals as draw_arrivals,
+    draw_comparison as draw_comparison,
+)
 from .film import (
     MOVIE_SUFFIXES as MOVIE_SUFFIXES,
+)
+from .generations import (
+    draw_generations as draw_generations,
 )
 from .movie import (
     write_animation as write_animation,
@@ -16,9 +26,8 @@ from .plan_picture import (
 )
 from .plotting import (
     draw_area as draw_area,
-    draw_arrivals as draw_arrivals,
-    draw_comparison as draw_comparison,
     draw_d_scheme as draw_d_scheme,
+    draw_generation as draw_generation,
     draw_n_scheme as draw_n_scheme,
     draw_plan as draw_plan,
 )

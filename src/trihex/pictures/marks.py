@@ -7,10 +7,9 @@ from numpy.typing import NDArray
 
 from trihex.areas import Area, Scenario
 from trihex.kernels.codes import NOT_REACHED
-from trihex.pictures.palette import DESTINATION, INK, PAGE, Colour, is_light
+from trihex.pictures.palette import DESTINATION, INK, PAGE, STRANDED, Colour, is_light
 from trihex.pictures.scene import Discs, Mark, Texts, centres_of, ink_on
 from trihex.pictures.sheet import width_of
-from trihex.plans import Plan
 
 # In pixels per edge step, the diameter of the circle inside a cell.
 LETTERS_FROM = 20.0
@@ -20,14 +19,20 @@ _LEAST_NUMBER = 7.0  # size of letters, in pixels
 LETTERS = "abcdefghijklmnopqrstuvwxyz"
 
 
-def destination_marks(scenario: Scenario, scale: float, *, letters: bool = True) -> list[Mark]:
-    """Return a D for each destination; where cells are too small, a disc in a white ring, so that it is found."""
+def destination_marks(
+    scenario: Scenario, scale: float, *, letters: bool = True, over_lines: bool = False
+) -> list[Mark]:
+    """Return a D for each destination; where cells are too small, a disc in a white ring, so that it is found.
+
+    `over_lines` puts the D onto such a disc as well, where lines would hide the cell.
+    """
     x, y = centres_of(scenario.area, scenario.destinations)
     if scale < LETTERS_FROM:
         return [Discs(x, y, 0.65, PAGE, 5.0), Discs(x, y, 0.5, DESTINATION, 3.5)]
     if not letters:
         return []
-    return [Texts(x, y, ("D",) * x.size, round(0.5 * scale), PAGE)]
+    discs: list[Mark] = [Discs(x, y, 0.47, PAGE), Discs(x, y, 0.4, DESTINATION)] if over_lines else []
+    return [*discs, Texts(x, y, ("D",) * x.size, round(0.5 * scale), PAGE)]
 
 
 def robot_marks(scenario: Scenario, robots: NDArray[np.int64], colour: Colour, scale: float) -> list[Mark]:
@@ -36,9 +41,25 @@ def robot_marks(scenario: Scenario, robots: NDArray[np.int64], colour: Colour, s
         return []
     x, y = centres_of(scenario.area, scenario.robots[robots])
     marks: list[Mark] = [Discs(x, y, ROBOT_RADIUS, colour, LEAST_ROBOT)]
-    if scale >= LETTERS_FROM and scenario.robot_count <= len(LETTERS):
+    if has_letters(scenario, scale):
         marks.append(Texts(x, y, tuple(LETTERS[r] for r in robots), round(0.46 * scale), ink_on(colour)))
     return marks
+
+
+def has_letters(scenario: Scenario, scale: float) -> bool:
+    """Tell whether robots are few and cells large enough for the letters of the paper."""
+    return scale >= LETTERS_FROM and scenario.robot_count <= len(LETTERS)
+
+
+def stranded_marks(scenario: Scenario, robots: NDArray[np.int64], scale: float) -> list[Mark]:
+    """Return a disc for each of `robots`, which never arrive, with its letter or, where that fits, its number."""
+    if not robots.size:
+        return []
+    size = 0.0 if has_letters(scenario, scale) else _size_of_number(int(robots.max(initial=0)), scale)
+    if size < _LEAST_NUMBER:
+        return robot_marks(scenario, robots, STRANDED, scale)
+    x, y = centres_of(scenario.area, scenario.robots[robots])
+    return [Discs(x, y, 0.48, STRANDED), Texts(x, y, tuple(map(str, robots.tolist())), round(size, 1), PAGE)]
 
 
 def leave_room(scenario: Scenario, scale: float) -> bool:
@@ -57,10 +78,7 @@ def number_marks(
 ) -> list[Mark]:
     """Return the numbers (height, width) of cells that are reached, if they fit into the cells."""
     is_shown = numbers != NOT_REACHED
-    most = int(numbers.max(initial=0, where=is_shown))
-    # At size 100 the widest number is so wide; the diagonal of its box must fit into the circle inside the cell.
-    wide = width_of("0" * len(str(most)), 100) / 100
-    size = min(0.36 * scale, 0.96 * scale / float(np.hypot(wide, 0.72)))
+    size = min(0.36 * scale, _size_of_number(int(numbers.max(initial=0, where=is_shown)), scale))
     if size < _LEAST_NUMBER:
         return []
     light = np.array([is_light(tuple(colour)) for colour in colours.tolist()])
@@ -70,6 +88,13 @@ def number_marks(
         words = tuple(map(str, numbers.reshape(-1)[cells].tolist()))
         marks.append(Texts(*centres_of(area, cells), words, round(size, 1), ink))
     return marks
+
+
+def _size_of_number(most: int, scale: float) -> float:
+    """Return the size of letters, half a cell at most, at which numbers up to `most` fit into the circle in a cell."""
+    # At size 100 the widest number is so wide; the diagonal of its box must fit.
+    wide = width_of("0" * len(str(most)), 100) / 100
+    return min(0.5 * scale, 0.96 * scale / float(np.hypot(wide, 0.72)))
 
 
 def _units(area: Area) -> NDArray[np.float64]:
@@ -86,15 +111,25 @@ def arrow_paths(area: Area, directions: NDArray[np.uint16]) -> tuple[NDArray[np.
     unit, cells = _units(area), np.flatnonzero(directions)
     bits = directions.reshape(-1)[cells]
     orientation = area.tessellation.orientation_of_cell(*area.cell_to_xy(cells))
+    # Arrows of one cell begin apart and end where the cell does, or, 30 degrees apart on triangles, they look like one.
+    start = np.where(bits & (bits - 1), 0.15, 0.0)[:, None]
+    length = np.minimum(0.88 * _room(area, unit), 0.72)
     arrows = []
     for k in range(unit.shape[1]):
         has = np.flatnonzero(bits >> k & 1)
         centre = np.stack(centres_of(area, cells[has]), axis=-1)
-        way = unit[orientation[has], k]
-        side = np.stack([-way[:, 1], way[:, 0]], axis=-1)
-        tip, neck = centre + 0.44 * way, centre + 0.30 * way
-        arrows.append(np.stack([centre, tip, neck + 0.065 * side, tip, neck - 0.065 * side], axis=1))
+        way, long = unit[orientation[has], k], length[orientation[has], k][:, None]
+        side = 0.055 * np.stack([-way[:, 1], way[:, 0]], axis=-1)
+        tip, neck = centre + long * way, centre + (long - 0.12) * way
+        arrows.append(np.stack([centre + start[has] * way, tip, neck + side, tip, neck - side], axis=1))
     return tuple(np.concatenate(arrows))
+
+
+def _room(area: Area, unit: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return how far it is from the centre of a cell to its border in each direction, shape (2, directions)."""
+    edges = unit[:, : area.tessellation.edge_count]
+    # Half an edge step lies between the centre and each edge.
+    return np.asarray(0.5 / np.einsum("okc,oec->oke", unit, edges).max(axis=-1))
 
 
 def compass_of(area: Area, directions: NDArray[np.uint16], count: int) -> NDArray[np.uint8]:
@@ -109,20 +144,6 @@ def compass_of(area: Area, directions: NDArray[np.uint16], count: int) -> NDArra
     index = (np.round(turn * count).astype(np.int64) % count).astype(np.uint8)
     y, x = np.ogrid[: area.height, : area.width]
     return np.asarray(index[area.tessellation.orientation_of_cell(x, y), directions])
-
-
-def robot_paths(plan: Plan) -> tuple[NDArray[np.float64], ...]:
-    """Return the way of each robot, shape (points, 2), each a little aside, so that paths in one cell do not hide."""
-    area = plan.scenario.area
-    cells = np.stack(list(plan.cells_by_step()))
-    paths = []
-    for robot, end in enumerate(plan.last_cell_of_robot.tolist()):
-        own = np.append(cells[:, robot][cells[:, robot] >= 0], end)
-        own = own[np.append(True, own[1:] != own[:-1])]
-        turn = 2.399963 * robot  # the golden angle: no two robots of a few are aside alike
-        aside = 0.13 * np.array([np.cos(turn), np.sin(turn)]) if plan.scenario.robot_count > 1 else 0.0
-        paths.append(np.stack(centres_of(area, own), axis=-1) + aside)
-    return tuple(paths)
 
 
 def base_cells(record: Area | Scenario, free: int, barrier: int, destination: int) -> NDArray[np.uint8]:

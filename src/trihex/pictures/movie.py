@@ -17,6 +17,7 @@ from trihex.pictures.palette import FINAL, MOVING, STRANDED, WAITING
 from trihex.pictures.png import paint_disc_marks, write_words
 from trihex.pictures.scene import Key, Scene, centres_of, ink_on, scale_for
 from trihex.pictures.sheet import Words
+from trihex.pictures.ways import places_between
 from trihex.plans import Plan, follow
 
 _SIDE = 600.0  # the longest side of a movie unless the caller names a width
@@ -126,14 +127,14 @@ class PlanFilm(Film):
         site = area.layout.cell_to_site(plan.scenario.robots)
         step = 0
         while step < plan.steps:
-            x, y = centres_of(area, area.layout.site_to_cell(site))
-            yield step, x, y
+            cells = area.layout.site_to_cell(site)
+            yield step, *centres_of(area, cells)
             next_step = min(step + self.pace.every, plan.steps)
             follow(plan, step, next_step, site)
             if self.pace.substeps > 1:
-                to_x, to_y = centres_of(area, area.layout.site_to_cell(site))
+                later = area.layout.site_to_cell(site)
                 for share in (np.arange(1, self.pace.substeps) / self.pace.substeps).tolist():
-                    yield step, x + share * (to_x - x), y + share * (to_y - y)
+                    yield step, *places_between(area, cells, later, share)
             step = next_step
         yield step, *centres_of(area, area.layout.site_to_cell(site))
 

@@ -12,6 +12,7 @@ from trihex.pictures.legend import barrier_colour, barrier_keys, colours_of
 from trihex.pictures.palette import DESTINATION, FREE, MOVING, SERIES, STRANDED
 from trihex.pictures.picture import Picture, titled
 from trihex.pictures.scene import Key, Lines, Mark, Ramp, Scene, colour_rows, scale_for
+from trihex.pictures.ways import robot_paths
 from trihex.plans import Plan, visits_of
 
 PATHS_FROM = 8.0  # pixels per edge step
@@ -53,12 +54,14 @@ def picture_of_plan(
     first = _SHADES
     cells = make.base_cells(scenario, first, first + 1, first + 2)
     keys: list[Key | Ramp] = [*barrier_keys(area, ground), Key("cell", DESTINATION, "destination")]
-    marks: list[Mark] = make.destination_marks(scenario, scale)
+    marks: list[Mark] = make.destination_marks(scenario, scale, over_lines=paths)
     if paths:
-        for robot, path in enumerate(make.robot_paths(plan)):
+        for robot, path in enumerate(robot_paths(plan)):
             colour = SERIES[robot % len(SERIES)] if plan.arrived[robot] else STRANDED
             marks.append(Lines((path,), max(2.0, 0.06 * scale), colour))
-            marks += make.robot_marks(scenario, np.array([robot]), colour, scale)
+            if plan.arrived[robot]:
+                marks += make.robot_marks(scenario, np.array([robot]), colour, scale)
+        marks += make.stranded_marks(scenario, stranded, scale)
         keys += [Key("disc", MOVING, "robot and its path")] if arrived.size else []
     else:
         visits = visits_of(plan)
@@ -66,9 +69,7 @@ def picture_of_plan(
         is_shaded = (visits > 0) & (cells == first)
         cells[is_shaded] = np.rint(np.log(visits[is_shaded]) * ((_SHADES - 1) / max(np.log(most), 1e-9)))
         starts = arrived if make.leave_room(scenario, scale) else arrived[:0]
-        marks += make.robot_marks(scenario, starts, MOVING, scale) + make.robot_marks(
-            scenario, stranded, STRANDED, scale
-        )
+        marks += make.robot_marks(scenario, starts, MOVING, scale) + make.stranded_marks(scenario, stranded, scale)
         keys += [Key("disc", MOVING, "start")] if starts.size else []
         keys += [Ramp(colours_of(shades), "visits (log)", "1", str(most))] if is_shaded.any() else []
     keys += [Key("disc", STRANDED, "never arrives")] if stranded.size else []
@@ -98,7 +99,11 @@ def _cropped(plan: Plan, ground: Ground | None) -> tuple[Plan, Ground | None]:
             area.tessellation.centre_of_cell(left, top), area.tessellation.centre_of_cell(0, 0), strict=True
         )
     )
-    part = Area(area.tessellation, barriers, area.name)
+    frame = area.frame
+    if frame is not None:
+        corner_x, corner_y = (float(metres) for metres in frame.point_to_metres(x, y))
+        frame = replace(frame, origin=(corner_x, corner_y))
+    part = Area(area.tessellation, barriers, area.name, frame)
     destinations, robots = (
         np.stack(area.cell_to_xy(cells), axis=-1) - (left, top) for cells in (scenario.destinations, scenario.robots)
     )

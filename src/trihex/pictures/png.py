@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.areas import Ground
-from trihex.pictures.palette import GROUND, PAGE, Colour
+from trihex.pictures.palette import GROUND, INK, PAGE, Colour
 from trihex.pictures.scene import OUTLINES_FROM, Discs, Lines, Scene, Texts
 from trihex.pictures.sheet import RAMP_WIDTH, Sheet, Words, arrange, font_of
 
@@ -135,6 +135,11 @@ def _paint_symbols(page: NDArray[np.uint8], sheet: Sheet) -> None:
     for x, y, ramp in sheet.ramps:
         at = np.arange(RAMP_WIDTH) * len(ramp.colours) // RAMP_WIDTH
         _paint_box(page, x, y - 6, RAMP_WIDTH, 12, np.array(ramp.colours)[at])
+    for x, y, long in sheet.bars:
+        left, top = round(x), round(y)
+        page[top - 1 : top + 1, left : left + long] = INK
+        for end in (left, left + long - 2):
+            page[top - 5 : top + 5, end : end + 2] = INK
 
 
 def _paint_box(page: NDArray[np.uint8], x: float, y: float, width: int, height: int, colour: NDArray[Any]) -> None:

@@ -13,10 +13,12 @@ from numpy.typing import NDArray
 from trihex.kernels.codes import LATE, WAIT
 from trihex.pictures import marks as make
 from trihex.pictures.film import MOST_SIDE, Film, Groups, Progress, write_film
+from trihex.pictures.legend import scale_bars
 from trihex.pictures.palette import DESTINATION, MOVING, PAGE, SERIES, STRANDED, WAITING
 from trihex.pictures.png import paint, paint_disc_marks, write_words
 from trihex.pictures.run_picture import CLASS_COLOURS, class_keys, classes_of, run_title
 from trihex.pictures.scene import Discs, Key, Mark, Scene, centres_of, scale_for
+from trihex.pictures.ways import places_between
 from trihex.running import BROKEN, GOING, Run
 
 LATE_COLOUR = SERIES[1]
@@ -64,6 +66,7 @@ class RunFilm(Film):
         area, run = self.run.scenario.area, self.run
         across, _ = area.tessellation.extent(area.height, area.width)
         pixels = max(8, round(scale_for(area, self.width, _SIDE, MOST_SIDE) * across))
+        scale = scale_for(area, pixels)
         keys = [Key("disc", MOVING, "moving"), Key("disc", WAITING, "waiting")]
         keys += [Key("disc", LATE_COLOUR, "late")] if (run.actions == LATE).any() else []
         keys += [Key("disc", STRANDED, "cut off or broken")] if (run.state_of_robot != 1).any() else []
@@ -71,10 +74,10 @@ class RunFilm(Film):
             area,
             classes_of(run, 0, area.barriers, run.scenario.destinations),
             CLASS_COLOURS,
-            scale_for(area, pixels),
+            scale,
             (1, 3, 4),
             (),
-            (*keys, *class_keys(run)),
+            (*keys, *class_keys(run), *scale_bars(area, scale)),
             self.title,
             "clock",
         )
@@ -135,8 +138,8 @@ class RunFilm(Film):
         at = np.where(cells >= 0, cells, self._last_cells)
         x, y = centres_of(area, at)
         if share:
-            to_x, to_y = centres_of(area, np.where(later >= 0, later, np.where(cells >= 0, self._last_cells, at)))
-            x, y = x + share * (to_x - x), y + share * (to_y - y)
+            next_cells = np.where(later >= 0, later, np.where(cells >= 0, self._last_cells, at))
+            x, y = places_between(area, at, next_cells, share)
         frame = background.copy()
         marks: tuple[Mark, ...] = ()
         if scale < make.LETTERS_FROM and destinations.size:  # cells are too small to be found by their colour alone

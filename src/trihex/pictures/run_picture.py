@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.pictures import marks as make, palette
+from trihex.pictures.legend import scale_bars
 from trihex.pictures.palette import BARRIER, DESTINATION, FREE, MOVING, STRANDED
 from trihex.pictures.picture import Picture
 from trihex.pictures.scene import Key, Mark, Ramp, Scene, scale_for
@@ -60,7 +61,7 @@ def picture_of_run(run: Run, *, width: int | None = None, title: str | None = No
     marks: list[Mark] = make.destination_marks(run.scenario, scale)
     start, stranded = np.arange(run.scenario.robot_count), np.flatnonzero(run.state_of_robot == GOING)
     marks += make.robot_marks(run.scenario, start, MOVING, scale)
-    marks += make.robot_marks(run.scenario, stranded[stranded < start.size], STRANDED, scale)
+    marks += make.stranded_marks(run.scenario, stranded[stranded < start.size], scale)
     keys = class_keys(run)
     if run.sensor is not None:
         keys.insert(0, Ramp(tuple(map(tuple, shades.tolist())), "first seen in step", "0", str(last)))
@@ -77,7 +78,7 @@ def picture_of_run(run: Run, *, width: int | None = None, title: str | None = No
             scale,
             (1, 3, 4),
             tuple(marks),
-            tuple(keys) if legend else (),
+            (*keys, *scale_bars(area, scale)) if legend else (),
             run_title(run) if title is None else title,
             "" if title == "" else words,
         )

@@ -78,6 +78,17 @@ class Ramp:
     high: str
 
 
+@dataclass(frozen=True)
+class Bar:
+    """An entry of the legend, the scale: a bar of so many edge steps, and how long that is in the world."""
+
+    length: float
+    words: str
+
+
+Entry: TypeAlias = Key | Ramp | Bar
+
+
 @dataclass(frozen=True, eq=False)
 class Scene(Record):
     """What a picture shows.
@@ -93,7 +104,7 @@ class Scene(Record):
         Rows of `colours` that must not fade where many cells share a pixel, such as barriers.
     marks : tuple of Discs, Lines and Texts
         Painted in the order lines, discs, texts.
-    legend : tuple of Key and Ramp
+    legend : tuple of Key, Ramp and Bar
     title, subtitle : str
     scale : float
         Pixels per edge step.
@@ -107,7 +118,7 @@ class Scene(Record):
     scale: float
     bold: tuple[int, ...] = ()
     marks: tuple[Mark, ...] = ()
-    legend: tuple[Key | Ramp, ...] = ()
+    legend: tuple[Entry, ...] = ()
     title: str = ""
     subtitle: str = ""
     ground: Ground | None = None

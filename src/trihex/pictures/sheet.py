@@ -7,7 +7,7 @@ from functools import lru_cache
 from typing import Any
 
 from trihex.pictures.palette import INK, Colour
-from trihex.pictures.scene import Key, Ramp, Scene
+from trihex.pictures.scene import Bar, Entry, Key, Ramp, Scene
 
 MARGIN, TITLE_SIZE, TEXT_SIZE = 14, 19, 14
 TITLE_ROW, TEXT_ROW, LEGEND_ROW = 25, 20, 22
@@ -33,7 +33,8 @@ class Sheet:
     """Where the parts of a picture lie on its page.
 
     The cells are at `body` (x, y) and take `body_width` by `body_height`; each symbol of the legend is centred on its
-    (x, y), each ramp begins at its (x, y). `words` holds all words, among them `subtitle` where that is one line.
+    (x, y), each ramp begins at its (x, y), each bar, too, and is so many pixels long. `words` holds all words, among
+    them `subtitle` where that is one line.
     """
 
     width: int
@@ -45,6 +46,7 @@ class Sheet:
     subtitle_at: tuple[float, float]
     symbols: tuple[tuple[float, float, Key], ...]
     ramps: tuple[tuple[float, float, Ramp], ...]
+    bars: tuple[tuple[float, float, int], ...]
 
 
 @lru_cache(maxsize=32)
@@ -91,15 +93,20 @@ def arrange(scene: Scene) -> Sheet:
         y += TEXT_ROW
     body = ((width - body_width) // 2, round(y + (8 if words else 0)))
     bottom = float(body[1] + body_height)
-    symbols, ramps = [], []
+    symbols, ramps, bars = [], [], []
     if scene.legend:
         bottom += 10
-        places, rows = _places(scene.legend, float(margin), float(width - margin))
+        places, rows = _places(scene, float(margin), float(width - margin))
         for entry, x, row in places:
             middle = bottom + (row + 0.5) * LEGEND_ROW
             if isinstance(entry, Key):
                 symbols.append((x + 7, middle, entry))
                 words.append(Words(x + 20, middle, entry.words, TEXT_SIZE))
+                continue
+            if isinstance(entry, Bar):
+                long = _pixels_of(entry, scene)
+                bars.append((x, middle, long))
+                words.append(Words(x + long + 8, middle, entry.words, TEXT_SIZE))
                 continue
             for text, gap in ((entry.words, 4), (entry.low, 3)):
                 words.append(Words(x, middle, text, TEXT_SIZE))
@@ -108,17 +115,22 @@ def arrange(scene: Scene) -> Sheet:
             words.append(Words(x + RAMP_WIDTH + 5, middle, entry.high, TEXT_SIZE))
         bottom += rows * LEGEND_ROW
     height = round(bottom) + margin
-    return Sheet(width, height, body, body_width, body_height, tuple(words), subtitle_at, tuple(symbols), tuple(ramps))
+    legend = (tuple(symbols), tuple(ramps), tuple(bars))
+    return Sheet(width, height, body, body_width, body_height, tuple(words), subtitle_at, *legend)
 
 
-def _places(
-    legend: tuple[Key | Ramp, ...], left: float, right: float
-) -> tuple[list[tuple[Key | Ramp, float, int]], int]:
+def _pixels_of(bar: Bar, scene: Scene) -> int:
+    return max(1, round(bar.length * scene.scale))
+
+
+def _places(scene: Scene, left: float, right: float) -> tuple[list[tuple[Entry, float, int]], int]:
     """Return the x and the row of each entry of a legend, and the number of rows."""
     places, x, row = [], left, 0
-    for entry in legend:
+    for entry in scene.legend:
         if isinstance(entry, Key):
             needed = 20 + width_of(entry.words, TEXT_SIZE)
+        elif isinstance(entry, Bar):
+            needed = _pixels_of(entry, scene) + 8 + width_of(entry.words, TEXT_SIZE)
         else:
             needed = RAMP_WIDTH + 20 + sum(width_of(text, TEXT_SIZE) for text in (entry.words, entry.low, entry.high))
         if x > left and x + needed > right:

@@ -157,4 +157,7 @@ def _strip(sheet: Sheet) -> str:
         parts.append(f'<linearGradient id="ramp{number}">{stops}</linearGradient>')
         box = f'<rect x="{x:.1f}" y="{y - 6:g}" width="{RAMP_WIDTH}" height="12" stroke="#aaa"'
         parts.append(f'{box} fill="url(#ramp{number})"/>')
+    for x, y, long in sheet.bars:
+        d = f"M{x:g} {y - 5:g}v10m0-5h{long}m0-5v10"
+        parts.append(f'<path fill="none" stroke="{_hex(INK)}" stroke-width="2" d="{d}"/>')
     return f'<g fill="{_hex(INK)}">' + "\n".join(parts) + "</g>" if parts else ""

@@ -1,3 +1,6 @@
+from .naming import (
+    planner_from as planner_from,
+)
 from .registry import (
     PLANNERS as PLANNERS,
     RECORDS as RECORDS,

@@ -1,8 +1,8 @@
 """Registry: the planners by name.
 
-Every planner is a function ``plan_<name>(n_scheme, *, progress=None, **options) -> Plan`` in a file of its own, which
-is imported when it is first asked for; it may have a sister ``arrivals_<name>`` that returns `Arrivals`. The command
-line, the tests, the docs and the benchmarks read this registry.
+Every planner is a function ``plan_<name>(n_scheme, *, option=default, progress=None) -> Plan`` in a file of its own;
+its keyword-only parameters are its options, and it is imported when first asked for. It may have a sister
+``arrivals_<name>`` that returns `Arrivals`. Command line, viewer, tests and API page read this registry.
 """
 
 from __future__ import annotations
@@ -14,7 +14,8 @@ from typing import Any, Literal, overload
 
 from trihex.areas import Scenario, check_possible
 from trihex.errors import PlanError, check_choice
-from trihex.fields import NScheme, make_n_scheme
+from trihex.fields import NScheme, field_kernels, make_n_scheme
+from trihex.kernels.preparing import prepare
 from trihex.plans import Arrivals, Plan, make_arrivals
 
 Progress = Callable[[int, int], None]
@@ -118,6 +119,7 @@ def make_plan(
     for option in options:
         if option not in known:
             check_choice(f"option of planner {planner!r}", option, known, PlanError)
+    prepare(planner, field_kernels(scenario.area.tessellation, scenario.corners))
     if n_scheme is None:
         n_scheme = make_n_scheme(scenario)
     elif n_scheme.scenario is not scenario and n_scheme.scenario != scenario:

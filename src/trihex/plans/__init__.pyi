@@ -12,6 +12,7 @@ from .playback import (
 )
 from .walk import (
     cells_of_rows as cells_of_rows,
+    count_marked_moves as count_marked_moves,
     follow as follow,
     visits_of as visits_of,
 )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -24,16 +26,30 @@ def visits_of(plan: Plan) -> NDArray[np.int64]:
     """Return how many robots start in or enter each cell, shape (height, width)."""
     from trihex.plans.kernels import replay as kernels
 
-    scenario, layout, first = plan.scenario, plan.scenario.area.layout, plan.first_action
+    layout = plan.scenario.area.layout
     visits = np.zeros(layout.size, dtype=np.int64)
-    start, actions = layout.cell_to_site(scenario.robots), actions_of(plan)
-    robot, robots = 0, scenario.robot_count
+    start, actions = layout.cell_to_site(plan.scenario.robots), actions_of(plan)
+    for robot, last in _blocks_of(plan):
+        kernels.count_visits(start, actions, robot, last, visits)
+    return layout.cells_of(visits)  # type: ignore[return-value]
+
+
+def count_marked_moves(plan: Plan, marked: NDArray[np.uint16]) -> int:
+    """Return how many moves of a plan are marked: bit k of each site, as in `Scenario.moves`, for direction k."""
+    from trihex.plans.kernels import replay as kernels
+
+    start, actions = plan.scenario.area.layout.cell_to_site(plan.scenario.robots), actions_of(plan)
+    return sum(int(kernels.count_marked(start, actions, robot, last, marked)) for robot, last in _blocks_of(plan))
+
+
+def _blocks_of(plan: Plan) -> Iterator[tuple[int, int]]:
+    """Yield robots from, and up to, that have about so many actions together as one call of a kernel takes."""
+    first, robot, robots = plan.first_action, 0, plan.scenario.robot_count
     while robot < robots:
         last = max(robot + 1, int(np.searchsorted(first, first[robot] + _BUDGET)) - 1)
         last = min(robots, last, robot + 1_000_000)
-        kernels.count_visits(start, actions, robot, last, visits)
+        yield robot, last
         robot = last
-    return layout.cells_of(visits)  # type: ignore[return-value]
 
 
 def cells_of_rows(plan: Plan, first_row: NDArray[np.int64]) -> NDArray[np.int64]:

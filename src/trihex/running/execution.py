@@ -11,8 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from trihex.areas import Scenario, cells_from
 from trihex.errors import ExecutionError, check_choice
-from trihex.fields import LivingField, NScheme, Repair, make_n_scheme
+from trihex.fields import LivingField, NScheme, Repair, field_kernels, make_n_scheme
 from trihex.kernels.codes import LATE, NOT_REACHED, WAIT
+from trihex.kernels.preparing import prepare
 from trihex.planners import PLANNERS
 from trihex.record import read_only
 from trihex.running.fleet import Fleet
@@ -98,6 +99,7 @@ class Execution:
         check_choice("aside", aside, ASIDE, ExecutionError)
         #: What makes plans; None where robots go step by step.
         self.replanner = Replanner(planner, budget) if replan or planner not in STEPPERS else None
+        prepare("execution", field_kernels(scenario.area.tessellation, scenario.corners))
         n_scheme = make_n_scheme(scenario) if n_scheme is None else n_scheme
         self.scenario, self.planner, self.aside = scenario, planner, aside
         self.field = LivingField(scenario, n_scheme.distance_of_site)

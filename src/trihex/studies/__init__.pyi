@@ -15,6 +15,7 @@ from .journal import (
 )
 from .results import (
     check_results as check_results,
+    read_results as read_results,
 )
 from .study import (
     Study as Study,

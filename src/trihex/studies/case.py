@@ -18,7 +18,7 @@ from trihex.bounds import distance_bound, make_lower_bound
 from trihex.fields import NScheme, make_n_scheme
 from trihex.formats import Draft, read_draft, read_starts
 from trihex.judging import Report, audit_plan, make_report
-from trihex.planners import make_plan
+from trihex.planners import make_plan, planner_from
 from trihex.plans import Plan
 from trihex.studies.placing import place_destinations, place_robots
 from trihex.studies.row import (
@@ -159,6 +159,7 @@ def _with_robots(case: Case, draft: Draft, empty: NScheme) -> NScheme:
 
 def try_planner(planner: Mapping[str, Any]) -> Report:
     """Plan for two robots in a corridor: whether a planner and its options exist shows at once."""
+    planner_from(planner["name"])  # says more of a name with options that are wrong
     area = Area(Tessellation("hexagonal"), np.zeros((1, 3), dtype=bool))
     scenario = Scenario(area, np.array([0]), np.array([1, 2]))
     n_scheme = make_n_scheme(scenario)

@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from time import perf_counter
 from typing import Any
 
-from trihex.areas import Scenario
+import numpy as np
+
+from trihex.areas import Area, Scenario, Tessellation
 from trihex.bounds import LowerBound, make_lower_bound
 from trihex.errors import TooLargeError
-from trihex.fields import make_n_scheme
+from trihex.fields import field_kernels, make_n_scheme
 from trihex.judging import Report, audit_plan, make_report
-from trihex.planners import make_plan
+from trihex.kernels.preparing import prepare
+from trihex.planners import make_plan, planner_from
 from trihex.record import Record
+
+Wanted = tuple[str, dict[str, Any]]  # a planner and its options
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,6 +30,7 @@ class Entry(Record):
     ----------
     scenario : Scenario
     planner : str
+        As it was asked for, with its options.
     report : Report or None
         None if the planner refused.
     refusal : str
@@ -109,6 +116,7 @@ def make_comparison(
     scenarios : iterable of Scenario
         To compare tessellations, the same robots on several: see `on_tessellations`.
     planners : names of planners, or mapping from names to their options
+        A name may hold options itself, as in ``fcost:rule=paper``; each entry bears the name as it is given.
     progress : callable, optional
         Called with (plans made, plans to make).
     clock : callable
@@ -126,11 +134,17 @@ def make_comparison(
     >>> [(row["planner"], row["gap"], row["is_proven"]) for row in make_comparison([scenario], ["greedy"]).rows()]
     [('greedy', 0.0, True)]
     """
-    options = {name: dict(planners[name]) if isinstance(planners, Mapping) else {} for name in planners}
+    wanted: dict[str, Wanted] = {}
+    for label in planners:
+        name, options = planner_from(label)
+        wanted[label] = (name, {**options, **(planners[label] if isinstance(planners, Mapping) else {})})
+        _try(*wanted[label])
     scenarios = list(scenarios)
+    shapes = {field_kernels(scenario.area.tessellation, scenario.corners) for scenario in scenarios}
+    prepare(*(name for name, _ in wanted.values()), "audit", "bound", *shapes)
     entries: list[Entry] = []
     for scenario in scenarios:
-        entries += _entries(scenario, options, clock, progress, (len(entries), len(scenarios) * len(options)))
+        entries += _entries(scenario, wanted, clock, progress, (len(entries), len(scenarios) * len(wanted)))
     return Comparison(tuple(entries))
 
 
@@ -141,9 +155,16 @@ def on_tessellations(scenario: Scenario, names: Iterable[str]) -> list[Scenario]
     return [replace(scenario, area=area.with_tessellation(shape)) for shape in shapes]
 
 
+def _try(planner: str, options: dict[str, Any]) -> None:
+    """Raise PlanError now, not after other planners have worked, if an option has a value that it cannot have."""
+    area = Area(Tessellation("hexagonal"), np.zeros((1, 2), dtype=bool))
+    with suppress(TooLargeError):
+        make_plan(Scenario(area, np.array([0]), np.array([1])), planner, **options)
+
+
 def _entries(
     scenario: Scenario,
-    options: dict[str, dict[str, Any]],
+    wanted: dict[str, Wanted],
     clock: Callable[[], float],
     progress: Callable[[int, int], None] | None,
     done_of: tuple[int, int],
@@ -151,16 +172,16 @@ def _entries(
     n_scheme = make_n_scheme(scenario)
     bound = make_lower_bound(n_scheme)
     one_robot = scenario.with_robots(scenario.robots[:1])
-    for count, (planner, own) in enumerate(options.items()):
+    for count, (label, (planner, options)) in enumerate(wanted.items()):
         try:
-            make_plan(one_robot, planner, **own)
+            make_plan(one_robot, planner, **options)
             begin = clock()
-            plan = make_plan(scenario, planner, n_scheme=n_scheme, **own)
+            plan = make_plan(scenario, planner, n_scheme=n_scheme, **options)
             seconds = {"plan": clock() - begin}
         except TooLargeError as refusal:
-            yield Entry(scenario, planner, None, str(refusal))
+            yield Entry(scenario, label, None, str(refusal))
         else:
             report = make_report(plan, n_scheme=n_scheme, audit=audit_plan(plan), lower_bound=bound, seconds=seconds)
-            yield Entry(scenario, planner, report)
+            yield Entry(scenario, label, report)
         if progress is not None:
             progress(done_of[0] + count + 1, done_of[1])

@@ -5,17 +5,18 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from inspect import signature
 from pathlib import Path
 from typing import Any
 
 from trihex.areas import Scenario
-from trihex.errors import FormatError, StudyError, TrihexError
+from trihex.errors import FormatError, PlanError, StudyError, TrihexError
 from trihex.files import read_bytes
 from trihex.formats import complaint, read_toml
 from trihex.formats.schema import check_document
+from trihex.planners import planner_from
 from trihex.record import Record
 from trihex.studies.case import read_area_of, try_planner
 from trihex.studies.grid import Grid, variants_of
@@ -134,13 +135,7 @@ def _study_of(document: dict[str, Any], check: _Check) -> tuple[Study | None, li
     if table is None or mistakes:
         return None, mistakes
     check.mistakes = mistakes
-    planners = [
-        (f"planners.{i}", {"name": name, "options": options, **run})
-        for i, planner in enumerate(table.planners)
-        for name in planner.name
-        for options in variants_of(planner.options)
-        for run in _runs_of(planner)
-    ]
+    planners = [entry for i, planner in enumerate(table.planners) for entry in _planners_of(f"planners.{i}", planner)]
     axes: dict[str, Sequence[Any]] = {"bound": [table.bound], "folder": [str(check.folder.resolve())]}
     axes |= {name: _entries(getattr(table, axis)) for name, axis in AXES.items() if name not in ("seed", "planner")}
     axes |= {"seed": table.seeds, "planner": [planner for _, planner in planners]}
@@ -161,6 +156,18 @@ def _study_of(document: dict[str, Any], check: _Check) -> tuple[Study | None, li
     memory = bytes_of(table.limits.memory) if table.limits.memory else None
     key = hashlib.sha256(content.encode()).hexdigest()
     return Study(grid, key, table.limits.seconds, memory, table.name), []
+
+
+def _planners_of(key: str, planner: PlannerAxis) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Yield the entries of an axis of planners, each with its key; a name may hold options: ``fcost:rule=paper``."""
+    for text in planner.name:
+        try:
+            name, own = planner_from(text)
+        except PlanError:
+            name, own = text, {}  # the check of all planners will tell
+        for options in variants_of({**own, **planner.options}):
+            for run in _runs_of(planner):
+                yield key, {"name": name, "options": options, **run}
 
 
 def _runs_of(planner: PlannerAxis) -> list[dict[str, Any]]:

@@ -10,12 +10,18 @@ from typing import Any
 
 from trihex.errors import FormatError
 from trihex.files import MAX_BYTES, read_bytes
-from trihex.formats import check_text, format_of
+from trihex.formats import FORMATS, WRITERS, check_text, format_of
 from trihex.formats.areas.ros import parse_yaml
 
-SUFFIXES = (
-    *(".map", ".txt", ".toml", ".npz", ".csv", ".parquet", ".scen"),
-    *(".yaml", ".yml", ".geojson", ".json", ".wkt", ".png", ".pgm", ".bmp", ".gif", ".jpg", ".jpeg"),
+# All that is read: what the registry of formats knows by name, what we write, and images that we do not write.
+SUFFIXES = tuple(
+    dict.fromkeys(
+        (
+            *(suffix for form in FORMATS.values() for suffix in form.suffixes),
+            *(suffix for what in ("an area", "a scenario", "a plan") for suffix in WRITERS[what]),
+            *(".gif", ".jpg", ".jpeg"),
+        )
+    )
 )
 _MOST_FILES = 500
 _MOST_DEPTH = 3

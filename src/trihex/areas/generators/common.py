@@ -19,7 +19,7 @@ def begin_area(
     check_whole("height", height, 1, None, AreaError)
     check_whole("width", width, 1, None, AreaError)
     if height * width > MAX_CELLS:
-        raise AreaError(f"an area may have at most {MAX_CELLS} cells, not {height} x {width}")
+        raise AreaError(f"an area may have at most {MAX_CELLS} cells, not {width} x {height}")
     check_whole("seed", seed, 0, None, AreaError)
     return tessellation, np.random.default_rng(seed)
 
@@ -35,10 +35,10 @@ def check_some_free(barriers: NDArray[np.bool_], density: float, seed: int) -> N
     """Raise AreaError if all cells are barriers."""
     if barriers.all():
         height, width = barriers.shape
-        raise AreaError(f"density must leave a free cell; {density} leaves none of {height} x {width} with seed {seed}")
+        raise AreaError(f"density must leave a free cell; {density} leaves none of {width} x {height} with seed {seed}")
 
 
 def named_area(kind: str, tessellation: Tessellation, barriers: NDArray[np.bool_], seed: int) -> Area:
-    """Return the area, named by its kind, its size and its seed."""
+    """Return the area, named by its kind, its size (x before y, as everywhere) and its seed."""
     height, width = barriers.shape
-    return Area(tessellation, barriers, f"{kind} {height} x {width}, seed {seed}")
+    return Area(tessellation, barriers, f"{kind} {width} x {height}, seed {seed}")

@@ -34,7 +34,7 @@ def make_random_area(
     Examples
     --------
     >>> make_random_area("hexagonal", 30, 40, density=0.3, seed=1).name
-    'random 30 x 40, seed 1'
+    'random 40 x 30, seed 1'
     """
     tessellation, rng = begin_area(tessellation, height, width, seed)
     check_share("density", density)

@@ -6,7 +6,7 @@ from numba import types
 
 from trihex.kernels.actions import ACTIONS, site_after
 from trihex.kernels.codes import JUMP, WAIT
-from trihex.kernels.signatures import IN_I32, OUT_I32, OUT_I64, declared, kernel
+from trihex.kernels.signatures import IN_I32, IN_U16, OUT_I32, OUT_I64, declared, kernel
 
 
 class Replayed(NamedTuple):
@@ -54,6 +54,20 @@ def follow(actions, first_robot, last_robot, step, next_step, site):
         for i in range(first, last):
             at = site_after(at, i, actions)
         site[robot] = at
+
+
+@kernel(types.int64(IN_I32, ACTIONS, types.int64, types.int64, IN_U16))
+def count_marked(start, actions, first_robot, last_robot, marked):
+    """Return how many moves of robots first_robot..last_robot-1 are marked: bit k of a site for direction k."""
+    count = 0
+    for robot in range(first_robot, last_robot):
+        site = start[robot]
+        for i in range(actions.first[robot], actions.first[robot + 1]):
+            action = actions.action[i]
+            if action < JUMP and 0 <= site < len(marked):  # a plan may lead anywhere
+                count += marked[site] >> action & 1
+            site = site_after(site, i, actions)
+    return count
 
 
 @kernel(types.void(IN_I32, ACTIONS, types.int64, types.int64, OUT_I64))

@@ -93,15 +93,17 @@ function drawArrows(pane, cell, x, y, cx, cy) {
   const { doc, view, directions, paperContext: c, options } = pane;
   const orientation = shapeOf(doc).orientation(x, y), steps = options.steps[orientation];
   const up = options.numbers && view.scale >= NUMBERS_FROM ? -view.scale * 0.2 : 0;
-  const length = view.scale * (up ? 0.2 : 0.34), head = Math.max(2.5, length * 0.34);
+  const unit = view.scale * (up ? 0.2 : 0.34), head = Math.max(2.5, unit * 0.34), bits = directions[cell];
+  const gap = bits & (bits - 1) ? unit * 0.35 : 0; // arrows 30 degrees apart, on triangles, would look like one
   c.lineWidth = Math.max(1, view.scale / 22);
   for (let k = 0; k < steps.length; k++) {
-    if (!((directions[cell] >> k) & 1)) continue;
+    if (!((bits >> k) & 1)) continue;
     const [tx, ty] = shapeOf(doc).centre(x + steps[k][0], y + steps[k][1]), [sx, sy] = shapeOf(doc).centre(x, y);
-    const angle = Math.atan2(ty - sy, tx - sx);
+    const angle = Math.atan2(ty - sy, tx - sx), far = Math.hypot(tx - sx, ty - sy);
+    const length = unit * (far > 1.9 ? 1.8 : far > 1.1 ? 1.2 : 1); // as long as there is room for in the cell
     const ex = cx + length * Math.cos(angle), ey = cy + up + length * Math.sin(angle);
     c.beginPath();
-    c.moveTo(cx, cy + up);
+    c.moveTo(cx + gap * Math.cos(angle), cy + up + gap * Math.sin(angle));
     c.lineTo(ex, ey);
     c.moveTo(ex - head * Math.cos(angle - 0.5), ey - head * Math.sin(angle - 0.5));
     c.lineTo(ex, ey);
@@ -132,13 +134,17 @@ function drawDestinations(pane, palette) {
 }
 
 function drawTrack(pane) {
-  const { view, paperContext: c, track } = pane;
+  const { doc, view, paperContext: c, track } = pane;
   c.lineJoin = c.lineCap = "round";
   const [below, above] = pane.options.dark ? ["#000", "#ffb000"] : ["#fff", "#b3005e"];
   const width = (least) => Math.max(least, view.scale * 0.04 * least), lines = [[width(5), below], [width(2.5), above]];
   strokeEach(c, lines, () => track.forEach((cell, k) => {
     const [px, py] = pane.pointOf(cell);
-    if (k) c.lineTo(px, py);
-    else c.moveTo(px, py);
+    if (!k) return c.moveTo(px, py);
+    const [qx, qy] = pane.pointOf(track[k - 1]), before = track[k - 1], { bend, orientation } = shapeOf(doc);
+    const side = orientation(before % doc.width, Math.floor(before / doc.width));
+    const [bx, by] = bend(side, (px - qx) / view.scale, (py - qy) / view.scale);
+    if (bx || by) c.lineTo((px + qx) / 2 + bx * view.scale, (py + qy) / 2 + by * view.scale);
+    return c.lineTo(px, py);
   }));
 }

@@ -1,6 +1,7 @@
 // Hand: pointers on the panes, and what they do there with a tool.
 
 import { HIDDEN, Still } from "./playback.js";
+import { pointOfRobot } from "./robots.js";
 import { Stroke, brushed, isSameDocument } from "./stroke.js";
 
 const SLACK = 6; // pixels that a click may move
@@ -118,14 +119,13 @@ export class Hand {
 
   // Click: the robot nearest to the pointer, if it is near.
   pick(i, { px, py }) {
-    const { robots, view } = this.app.panes[i], { fraction } = this.app;
+    const pane = this.app.panes[i], { robots, view } = pane, { fraction } = this.app;
     if (!robots) return;
-    const { x0, y0, x1, y1, state } = robots, reach = Math.max(10, view.scale * 0.6);
+    const { state } = robots, reach = Math.max(10, view.scale * 0.6);
     let best = -1, least = reach * reach;
     for (let r = 0; r < robots.count; r++) {
       if (state[r] === HIDDEN) continue;
-      const dx = (x0[r] + (x1[r] - x0[r]) * fraction) * view.scale + view.left - px;
-      const dy = (y0[r] + (y1[r] - y0[r]) * fraction) * view.scale + view.top - py;
+      const [x, y] = pointOfRobot(pane, r, fraction), dx = x - px, dy = y - py;
       if (dx * dx + dy * dy < least) [best, least] = [r, dx * dx + dy * dy];
     }
     this.app.followed.follow(best);

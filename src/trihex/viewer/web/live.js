@@ -102,7 +102,7 @@ export class Live {
     this.last = header;
     for (let i = 0; i < farther.length; i++) this.distance[farther[i]] = distance[i];
     if (cells.length) this.#adoptWorld(cells, world);
-    this.runners.move(this.doc, arrays.cells, arrays.sets, isStep);
+    this.runners.move(this.doc, arrays.cells, arrays.sets, isStep ? header.step - this.shownStep : 0);
     this.doc = { ...this.doc, robots: this.runners.places() };
     if (isStep) this.#adoptStep(header, arrays.sets);
     this.app.replace(this.doc);

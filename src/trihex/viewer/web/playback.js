@@ -1,7 +1,7 @@
 // Playback: where robots are between two steps, and the set that each belongs to.
 
 import { R3 } from "./shapes.js";
-import { NOT_REACHED, centreOf } from "./documents.js";
+import { NOT_REACHED, centreOf, shapeOf } from "./documents.js";
 
 const WAIT = 255, JUMP = 254;
 
@@ -24,11 +24,13 @@ export class Still {
     }
     this.x1 = this.x0;
     this.y1 = this.y0;
+    this.bx = this.by = new Float32Array(n);
   }
   seek() {}
 }
 
-// Robots of a plan between `step` and the next: from (x0, y0) to (x1, y1), and the set that each belongs to.
+// Robots of a plan between `step` and the next: from (x0, y0) to (x1, y1), how far the corner that it
+// passes is from the middle, (bx, by), and the set that each belongs to.
 export class Playback {
   constructor({ header, arrays }, doc) {
     Object.assign(this, { header, doc, steps: header.steps, count: doc.robots.length });
@@ -49,7 +51,7 @@ export class Playback {
     this.kept = [start];
     this.site = start.slice();
     this.next = new Int32Array(this.count);
-    for (const name of ["x0", "y0", "x1", "y1"]) this[name] = new Float32Array(this.count);
+    for (const name of ["x0", "y0", "x1", "y1", "bx", "by"]) this[name] = new Float32Array(this.count);
     this.state = new Uint8Array(this.count);
     this.step = 0;
     this.#locate(this.site, this.x0, this.y0);
@@ -83,9 +85,11 @@ export class Playback {
   #lookAhead() {
     this.#advance(this.site, this.step, this.next);
     this.#locate(this.next, this.x1, this.y1);
-    const { first, actions, hasArrived, state, step } = this;
+    const { first, actions, hasArrived, state, step, site, x0, y0, x1, y1 } = this, { bend } = shapeOf(this.doc);
     for (let r = 0; r < this.count; r++) {
       const length = first[r + 1] - first[r];
+      const isMove = length > step && actions[first[r] + step] < JUMP;
+      [this.bx[r], this.by[r]] = isMove ? bend(site[r] & 1, x1[r] - x0[r], y1[r] - y0[r]) : [0, 0];
       if (length <= step) state[r] = hasArrived[r] ? HIDDEN : STRANDED;
       else if (hasArrived[r] && length === step + 1) state[r] = FINAL;
       else state[r] = actions[first[r] + step] === WAIT ? WAITING : MOVING;

@@ -24,6 +24,7 @@ const ROWS = [
   ["Longest t", (summary) => number(summary.longest_time)],
   ["Arrived", (summary) => `${number(summary.arrived)} of ${number(summary.robots)}`],
   ["Conflicts", (summary) => (summary.conflicts ? number(summary.conflicts) : "none")],
+  ["Moves past corners", ({ corner_moves: moves }) => (moves ? number(moves) : "none")],
   ["Planned in", ({ seconds }) => (seconds.plan === null ? "–" : `${seconds.plan.toPrecision(2)} s`)],
 ];
 

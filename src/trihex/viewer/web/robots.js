@@ -11,9 +11,14 @@ const rimOf = (pane) => packed(pane.options.dark ? RIM.dark : RIM.light);
 // By the set that a robot belongs to, see playback.js.
 export const coloursOf = ({ moving, waiting, final, stranded, late }) => [null, moving, waiting, final, stranded, late];
 
+// How much of its bend a way has, when a fraction of the step has passed: all of it in the middle, at the corner.
+const bowAt = (fraction) => 1 - Math.abs(2 * fraction - 1);
+
 // Where a robot is on the canvas, when a fraction of the step has passed.
-export function pointOfRobot({ robots: { x0, y0, x1, y1 }, view: { scale, left, top } }, r, fraction) {
-  return [(x0[r] + (x1[r] - x0[r]) * fraction) * scale + left, (y0[r] + (y1[r] - y0[r]) * fraction) * scale + top];
+export function pointOfRobot({ robots: { x0, y0, x1, y1, bx, by }, view: { scale, left, top } }, r, fraction) {
+  const bow = bowAt(fraction);
+  return [(x0[r] + (x1[r] - x0[r]) * fraction + bx[r] * bow) * scale + left,
+    (y0[r] + (y1[r] - y0[r]) * fraction + by[r] * bow) * scale + top];
 }
 
 export function plotRobots(pane, fraction) {
@@ -25,13 +30,13 @@ export function plotRobots(pane, fraction) {
 
 // Squares of two or three pixels.
 function plotDots(pane, fraction, side) {
-  const { robots: { x0, y0, x1, y1, state, count }, view, frame32, canvas: { width, height } } = pane;
-  const flat = coloursOf(pane.palette()).map((colour) => (colour ? packed(colour) : 0));
+  const { robots: { x0, y0, x1, y1, bx, by, state, count }, view, frame32, canvas: { width, height } } = pane;
+  const bow = bowAt(fraction), flat = coloursOf(pane.palette()).map((colour) => (colour ? packed(colour) : 0));
   const { scale } = view, shiftX = view.left - side / 2 + 0.5, shiftY = view.top - side / 2 + 0.5;
   const right = width - side - 1, bottom = height - side - 1;
   const place = (r) => {
-    const px = (x0[r] + (x1[r] - x0[r]) * fraction) * scale + shiftX;
-    const py = (y0[r] + (y1[r] - y0[r]) * fraction) * scale + shiftY;
+    const px = (x0[r] + (x1[r] - x0[r]) * fraction + bx[r] * bow) * scale + shiftX;
+    const py = (y0[r] + (y1[r] - y0[r]) * fraction + by[r] * bow) * scale + shiftY;
     return px >= 1 && py >= 1 && px < right && py < bottom ? (py | 0) * width + (px | 0) : -1;
   };
   if (pane.values) { // on the blues of a field the dots need a rim
@@ -57,12 +62,12 @@ function plotDots(pane, fraction, side) {
 }
 
 function plotDiscs(pane, fraction, radius) {
-  const { robots: { x0, y0, x1, y1, state, count }, view, frame32, canvas: { width, height } } = pane;
-  const colours = coloursOf(pane.palette());
+  const { robots: { x0, y0, x1, y1, bx, by, state, count }, view, frame32, canvas: { width, height } } = pane;
+  const colours = coloursOf(pane.palette()), bow = bowAt(fraction);
   for (let r = 0; r < count; r++) {
     if (state[r] === HIDDEN) continue;
-    const px = (x0[r] + (x1[r] - x0[r]) * fraction) * view.scale + view.left;
-    const py = (y0[r] + (y1[r] - y0[r]) * fraction) * view.scale + view.top;
+    const px = (x0[r] + (x1[r] - x0[r]) * fraction + bx[r] * bow) * view.scale + view.left;
+    const py = (y0[r] + (y1[r] - y0[r]) * fraction + by[r] * bow) * view.scale + view.top;
     const i = Math.floor(px), j = Math.floor(py);
     if (i < -radius - 2 || j < -radius - 2 || i > width + radius + 2 || j > height + radius + 2) continue;
     const disc = spriteOf(pane, colours[state[r]], radius, (px - i) * 4 | 0, (py - j) * 4 | 0);

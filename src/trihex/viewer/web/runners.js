@@ -1,19 +1,19 @@
 // Runners: the robots of a live run, from where they were to where they are.
 
-import { centreOf } from "./documents.js";
+import { centreOf, shapeOf } from "./documents.js";
 import { FINAL, HIDDEN } from "./playback.js";
 
 export class Runners {
   constructor() {
     this.count = 0;
     this.steps = 0;
-    for (const name of ["x0", "y0", "x1", "y1"]) this[name] = new Float32Array(0);
+    for (const name of ["x0", "y0", "x1", "y1", "bx", "by"]) this[name] = new Float32Array(0);
     this.state = new Uint8Array(0);
     this.cells = new Int32Array(0);
   }
 
-  // Take over where they are: after a step they come from where they were, else those that joined stand still.
-  move(doc, cells, state, isStep) {
+  // Take over where they are: after some steps they come from where they were, else those that joined stand still.
+  move(doc, cells, state, steps) {
     const { count, x0, y0, x1, y1 } = this, n = cells.length;
     const x = new Float32Array(n), y = new Float32Array(n);
     for (let r = 0; r < n; r++) [x[r], y[r]] = centreOf(doc, cells[r]);
@@ -22,8 +22,23 @@ export class Runners {
       all.set(old.subarray(0, Math.min(count, n)));
       return all;
     };
-    const [beforeX, beforeY] = isStep || !count ? [x1, y1] : [x0, y0];
-    Object.assign(this, { count: n, x0: from(beforeX, x), y0: from(beforeY, y), x1: x, y1: y, cells, state });
+    const [beforeX, beforeY] = steps || !count ? [x1, y1] : [x0, y0], [bx, by] = this.#bends(doc, x, y, steps);
+    Object.assign(this, { count: n, x0: from(beforeX, x), y0: from(beforeY, y), x1: x, y1: y, bx, by, cells, state });
+  }
+
+  // How far the corners that they pass in a step are from the middles of their ways.
+  #bends(doc, x, y, steps) {
+    const bx = new Float32Array(x.length), by = new Float32Array(x.length), { count, cells, x1, y1 } = this;
+    const old = Math.min(count, x.length), { bend, orientation } = shapeOf(doc);
+    if (!steps) {
+      bx.set(this.bx.subarray(0, old));
+      by.set(this.by.subarray(0, old));
+    }
+    for (let r = 0; steps === 1 && r < old; r++) {
+      const side = orientation(cells[r] % doc.width, Math.floor(cells[r] / doc.width));
+      [bx[r], by[r]] = bend(side, x[r] - x1[r], y[r] - y1[r]);
+    }
+    return [bx, by];
   }
 
   // Those that have come to a destination are gone.

@@ -51,6 +51,13 @@ export const SHAPES = {
       const f = 1 - 2 * o, half = (R3 / 2) * f;
       return [[0, -f], [half, 0.5 * f], [-half, 0.5 * f]];
     },
+    // From the middle of a move by (dx, dy) to the corner that it passes; most moves go straight.
+    bend(o, dx, dy) {
+      const squared = dx * dx + dy * dy;
+      if (squared < 2.9 || squared > 3.1) return STRAIGHT;
+      const corner = CORNERS[o].find(([x, y]) => (x - dx / 2) ** 2 + (y - dy / 2) ** 2 < 0.3);
+      return corner ? [corner[0] - dx / 2, corner[1] - dy / 2] : STRAIGHT;
+    },
     // Slanted edges of a row are across - depth = first + 2 i and across + depth = first + 2 i.
     fill(area, view, w, h, out) {
       const across = Float64Array.from({ length: w }, (_, i) => (view.x(i + 0.5) * 2) / R3);
@@ -66,4 +73,6 @@ export const SHAPES = {
     },
   },
 };
+const STRAIGHT = [0, 0], CORNERS = [0, 1].map((o) => SHAPES.triangular.corners(o));
+for (const name of ["square", "hexagonal"]) SHAPES[name].bend = () => STRAIGHT;
 const inRange = (i, count) => (i >= 0 && i < count ? i : -1);
