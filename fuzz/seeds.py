@@ -24,6 +24,12 @@ negate: 0
 occupied_thresh: 0.65
 free_thresh: 0.196
 """
+STYLE = """{
+  "image": "house.pgm",  # in the style of JSON
+  "resolution": 0.1, "origin": [-1.0, 2.0, 0.3],
+  "negate": 0
+}
+"""
 _RING = [[0, 0], [6, 0], [6, 4], [0, 4], [0, 0]]
 GEOJSON = {
     "type": "FeatureCollection",
@@ -42,6 +48,8 @@ GEOJSON = {
         },
     ],
 }
+_PARTS = [[_RING], [[[5, 0], [9, 0], [9, 4], [5, 4], [5, 0]]]]  # they overlap
+PARTS = {"type": "MultiPolygon", "coordinates": _PARTS}
 WKT = "GEOMETRYCOLLECTION (POLYGON ((0 0, 6 0, 6 4, 0 4, 0 0), (2 1, 3 1, 3 2, 2 2, 2 1)), LINESTRING (4 1, 4 2))"
 TOML = """destinations = [[0, 0]]
 [area]
@@ -102,12 +110,17 @@ def make_seeds() -> dict[str, bytes]:
         "house.yaml": YAML.encode(),
         "house.geojson": json.dumps(GEOJSON).encode(),
         "house.wkt": WKT.encode(),
+        "style.yaml": STYLE.encode(),
+        "parts.geojson": json.dumps(PARTS).encode(),
+        "srid.wkt": b"SRID=25832;" + WKT.encode(),
         "world.toml": TOML.encode(),
         "place.toml": PLACE_TOML.encode(),
         "starts.csv": b"x,y\n0,0\n2,2\n5,1\n",
         "metres.csv": b"x_metres,y_metres\n0.2,-0.2\n1.7,-0.7\n",
         "yard.scen": b"version 1\n0\tyard.map\t8\t4\t1\t0\t7\t0\t6.5\n1\tyard.map\t8\t4\t4\t2\t7\t0\t3.5\n",
         "letters.txt": b"a..B...D\n.B.b..B.\n....D...\n",
+        "walls.txt": b"#######\n#a.B.D#\n#.#b..#\n#######\n",
+        "house.pfm": b"Pf\n80 60\n-1.0\n" + (np.asarray(house()) / 255).astype("<f4")[::-1].tobytes(),
     }
     seeds["events.csv"] = b"step,event,x,y\n2,barrier,3,2\n3,join,1,2\n4,clear,3,2\n"
     seeds["events.toml"] = b'[[event]]\nstep = 2\nevent = "barrier"\ncell = [3, 2]\n'

@@ -57,12 +57,12 @@ def read_any(path: Path) -> None:
 
 def read_a_plan(path: Path) -> None:
     """Read a plan, judge it and write it."""
-    plan = read_plan(path, _SCENARIO)
+    plan = read_plan(path, _SCENARIO, for_judge=True)
     if plan.actions.size < _MOST_CELLS:
         audit_plan(plan)
         copy = _copy(plan, path, ("csv", "npz", "parquet"), write_plan)
         try:
-            again = read_plan(copy, plan.scenario)
+            again = read_plan(copy, plan.scenario, for_judge=True)
         finally:
             copy.unlink()
         assert np.array_equal(again.actions, plan.actions), f"{copy.name} is another plan"
@@ -138,11 +138,15 @@ TARGETS: dict[str, Callable[[Path], None]] = {
     "house.yaml": read_place,
     "house.geojson": read_place,
     "house.wkt": read_place,
+    "style.yaml": read_place,
+    "parts.geojson": read_place,
+    "srid.wkt": read_place,
     "place.toml": read_any,
     "world.toml": read_any,
     "yard.toml": read_any,
     "yard.map": read_any,
     "letters.txt": read_any,
+    "walls.txt": read_any,
     "starts.csv": read_some_starts,
     "metres.csv": read_some_starts,
     "yard.scen": read_some_starts,
@@ -151,6 +155,7 @@ TARGETS: dict[str, Callable[[Path], None]] = {
     "plan.parquet": read_a_plan,
     **{f"house.{suffix}": read_image for suffix in ("pgm", "png", "bmp", "gif", "jpeg")},
     "colours.png": read_image,
+    "house.pfm": read_image,
     "request.bundle": answer_a_request,
     "events.csv": read_some_events,
     "events.toml": read_some_events,

@@ -48,3 +48,17 @@ def test_areas_compare_by_value():
     assert one != th.Area("square", [[1, 0]])
     assert one != one.with_tessellation("hexagonal")
     assert one.with_tessellation("hexagonal").with_tessellation("square") == one
+
+
+@pytest.mark.parametrize("name", ["b\udce4r", "a\nb\tc", "\0x\0", "\ud800", "x\uffff"])
+def test_a_name_holds_only_what_every_file_can_keep(name):
+    kept = th.Area("square", [[0]], name).name
+    assert len(kept) == len(name) and kept.isprintable() and kept.encode() and "\ufffd" in kept
+
+
+def test_good_names_are_kept_and_long_ones_refused():
+    assert th.Area("square", [[0]], "Bär ξ 大").name == "Bär ξ 大"
+    assert len(th.Area("square", [[0]], "x" * 1000).name) == 1000
+    for wrong in ("x" * 1001, 5):
+        with pytest.raises(th.AreaError, match="name must be text of at most 1000 characters"):
+            th.Area("square", [[0]], wrong)

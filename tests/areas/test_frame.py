@@ -89,3 +89,37 @@ def test_an_area_with_a_frame_keeps_its_shape_and_may_lose_neighbours_only():
         edge.with_tessellation("triangular")
     with pytest.raises(th.AreaError, match="read its file again"):
         area.with_tessellation("hexagonal")
+
+
+@pytest.mark.parametrize("tessellation", ["triangular", "hexagonal"])
+def test_a_point_between_the_cells_and_the_wall_is_told_its_nearest_free_cell(tessellation):
+    barriers = np.zeros((5, 6), dtype=bool)
+    barriers[:, 0] = True
+    area = th.Area(tessellation, barriers, frame=th.Frame(2.0, (10.0, 20.0), 0.3))
+    cells = np.flatnonzero(~area.barriers.reshape(-1))
+    centre_x, centre_y = area.cell_to_metres(cells)
+    width, height = area.tessellation.extent(area.height, area.width)
+    said = []
+    for px, py in np.random.default_rng(5).uniform((-1, -1), (width + 1, height + 1), (200, 2)):
+        x, y = (float(number) for number in area.frame.point_to_metres(px, py))
+        try:
+            area.metres_to_cell(x, y)
+        except th.AreaError as error:
+            away = np.hypot(centre_x - x, centre_y - y)
+            near = int(cells[np.argmin(away)])
+            said.append(
+                (str(error), f"the nearest free cell is {area.place_of_cell(near)}, {away.min():.3g} metres away")
+            )
+    assert len(said) > 20 and all(right in text for text, right in said)
+
+
+def test_the_nearest_free_cell_may_be_far_or_nowhere():
+    barriers = np.ones((1, 300), dtype=bool)
+    area = th.Area("square", barriers, frame=th.Frame(1.0))
+    with pytest.raises(th.AreaError, match=r"lies outside the area: in none of its cells, of which none is free"):
+        area.metres_to_cell(1e300, 0)
+    with pytest.raises(th.ScenarioError, match=r"is a barrier: something stands there; no cell of the area is free"):
+        th.Scenario(area, [(0, 0)])
+    barriers[0, 299] = False
+    with pytest.raises(th.ScenarioError, match=r"the nearest free cell is \(299, 0\) at \(299\.5, -0\.5\) metres"):
+        th.Scenario(th.Area("square", barriers, frame=th.Frame(1.0)), [(0, 0)])

@@ -30,6 +30,14 @@ GEOJSON = (
     + str(SQUARE)
     + "]}}"
 )
+
+
+def with_feature(kind, type_, coordinates):
+    """Return GeoJSON of the square with one feature more."""
+    other = f'{{"type": "Feature", "properties": {{"kind": "{kind}"}}, "geometry": {{"type": "{type_}", "coordinates": {coordinates}}}}}'
+    return f'{{"type": "FeatureCollection", "features": [{GEOJSON}, {other}]}}'
+
+
 SIZE = ["--cell-size", "0.5", "--robot-radius", "0.1"]
 AIM = ["--destination", "2.2,2.2m"]
 ROBOTS = ["--robots", "3", "--planner", "greedy"]
@@ -69,18 +77,29 @@ CASES = {
     "radius without a cell size": (None, ["plan", "house.pgm", "--robot-radius", "0.1", "--destination", "4,4", *ROBOTS], "house.pgm: robot_radius and resolution need cell_size, the edge step of a cell in metres"),
     "brightness in per cent": (None, ["plan", "house.pgm", "--threshold", "50", "--destination", "4,4", *ROBOTS], "--threshold must be a number from 0 to 1, not '50'"),
     "unknown kind of unknown": (None, [*PLAN, "--unknown", "fre"], "--unknown must be one of barrier, free, not 'fre'; did you mean 'free'?"),
+    "PFM of other numbers": (b"Pf\n2 1\n-1.0\n" + np.array([0, 255], dtype="<f4").tobytes(), ["plan", "bad", "--destination", "0,0", *ROBOTS], "bad: brightness in a PFM must be a number from 0 to 1, not 255"),
+    "image a little too large": (b"P5\n12000 9000\n255\n" + bytes(70), ["plan", "bad", "--destination", "0,0", *ROBOTS], "bad: an image may have at most 100000000 pixels, not 12000 x 9000: cut off what is not needed, or shrink it (a half as wide has twice the resolution in metres)"),
     # polygons
     "JSON cut short": (GEOJSON[:-2], BAD, "bad: is no JSON: *delimiter"),
     "unknown kind": (GEOJSON.replace('"free"', '"obstacles"'), BAD, "bad: feature 0: kind must be one of free, obstacle, destination, robot, not 'obstacles'; did you mean 'obstacle'?"),
     "unknown type": (GEOJSON.replace("Polygon", "Polygone"), BAD, "bad: feature 0: type must be one of *, not 'Polygone'; did you mean 'Polygon'?"),
     "open ring": (GEOJSON.replace(", [0, 0]]", "]"), BAD, "bad: feature 0: is no Polygon: a ring must end where it begins"),
     "ring in words": (GEOJSON.replace("[9, 0]", '["nine", 0]'), BAD, "bad: feature 0: is no Polygon: coordinates must be finite numbers in lists as deep as its type asks for"),
-    "ring that crosses itself": (GEOJSON.replace("[9, 0], [9, 6]", "[9, 6], [9, 0]"), BAD, "bad: a Polygon is invalid: Self-intersection"),
+    "ring that crosses itself": (GEOJSON.replace("[9, 0], [9, 6]", "[9, 6], [9, 0]"), BAD, "bad: feature 0: a Polygon is invalid: Self-intersection"),
     "nothing free": (GEOJSON.replace('"free"', '"obstacle"'), BAD, "bad: there must be a polygon that is free; there is none with an area"),
     "WKT cut short": ("POLYGON ((0 0, 9 0", BAD, "bad: is no WKT: *end of stream"),
     "WKT with curves": ("CURVEPOLYGON (CIRCULARSTRING (0 0, 4 0, 4 4, 0 4, 0 0))", ["plan", "bad.wkt", *SIZE, *AIM, *ROBOTS], "bad.wkt: is no WKT: *"),
+    "MultiPolygon with a bad part": (GEOJSON.replace('"Polygon"', '"MultiPolygon"').replace('"coordinates": [', '"coordinates": [[[[0, 0], [2, 2], [2, 0], [0, 2], [0, 0]]], [').replace("]}}", "]]}}"), BAD, "bad: feature 0: part 0: a Polygon is invalid: Self-intersection"),
+    "exit on the wall": (with_feature("destination", "LineString", "[[9, 2], [9, 4]]"), ["plan", "bad", *SIZE, *ROBOTS], "bad: feature 1: a destination between (9, 2) and (9, 4) metres touches no free cell; the nearest is (19, 3) at (8.51592, 4) metres, its centre 0.484 metres away"),
+    "exit without coordinates": (with_feature("destination", "LineString", "[]"), ["plan", "bad", *SIZE, *ROBOTS], "bad: feature 1: a destination must have coordinates; it has none"),
+    "robot without coordinates": (with_feature("robot", "Point", "[]"), ["plan", "bad", *SIZE, *AIM], "bad: feature 1: a robot must have coordinates; it has none"),
+    "place in degrees": (GEOJSON.replace(str(SQUARE), "[[13.40, 52.51], [13.41, 52.51], [13.41, 52.52], [13.40, 52.51]]"), BAD, "bad: a place drawn by polygons must be larger than a cell of 0.5 metres, not 0.01 by 0.01 metres: numbers are metres, not degrees or kilometres"),
+    "place in kilometres": ("POLYGON ((0 0, 0.09 0, 0.09 0.06, 0 0))", BAD, "bad: a place drawn by polygons must be larger than a cell of 0.5 metres, not 0.09 by 0.06 metres: numbers are metres, not degrees or kilometres"),
+    "WKT with one bracket": ("POLYGON (0 0, 9 0, 9 6, 0 0)", BAD, "bad: is no WKT: *; a POLYGON has two brackets: POLYGON ((0 0, 9 0, 9 6, 0 0))"),
+    "WKT of several": ("POLYGON ((0 0, 9 0, 9 6, 0 0))\nPOLYGON ((9 0, 12 0, 9 6, 9 0))", BAD, "bad: is no WKT: *; several are one GEOMETRYCOLLECTION (..., POLYGON)"),
     # places
-    "destination outside, in metres": (None, ["plan", "house.yaml", *SIZE, "--destination", "20,2m", *ROBOTS], "--destination: point (20, 2) metres lies outside the area"),
+    "destination outside, in metres": (None, ["plan", "house.yaml", *SIZE, "--destination", "20,2m", *ROBOTS], "--destination: point (20, 2) metres lies outside the area: in none of its cells; the nearest free cell is (16, 7) at (7.21688, 2.25) metres, 12.8 metres away"),
+    "destination between cells and wall": (None, ["plan", "house.yaml", *SIZE, "--destination", "7.99,0.01m", *ROBOTS], "--destination: point (7.99, 0.01) metres lies outside the area: in none of its cells; the nearest free cell is"),
     "destination half in metres": (None, ["plan", "house.yaml", *SIZE, "--destination", "2m", *ROBOTS], "--destination in metres must be X,Ym, such as 3.2,-1m, not '2m'"),
     "metres in an area of cells": (None, ["plan", "world.txt", "--destination", "2,2m", *ROBOTS], "--destination: the area is measured in cells, not in metres; give it a frame (cell_size)"),
     "start outside, in metres": ("x_metres,y_metres\n1.2,2.2\n20,2\n", [*PLAN[:-4], "--planner", "greedy", "--starts", "bad"], "bad: line 3: point (20, 2) metres lies outside the area"),

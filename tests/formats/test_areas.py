@@ -115,3 +115,25 @@ def test_large_area_round_trip(tmp_path):
     for name in ("w.map", "w.txt"):
         write_area(Area("triangular", barriers), tmp_path / name)
         assert np.array_equal(read_area(tmp_path / name).barriers, barriers)
+
+
+@pytest.mark.parametrize("rows", ["#####\n#a.D#\n##.##\n", "#abcD#\n######\n", "BB#\na.D\n"])
+@pytest.mark.parametrize("name", ["walls.txt", "walls"])
+def test_walls_may_be_hashes(tmp_path, rows, name):
+    (tmp_path / name).write_text(rows)
+    (tmp_path / "plain.txt").write_text(rows.replace("#", "B"))
+    own, plain = read_scenario(tmp_path / name), read_scenario(tmp_path / "plain.txt")
+    assert own.area.barriers.tolist() == plain.area.barriers.tolist()
+    assert own.robots.tolist() == plain.robots.tolist() and own.destinations.tolist() == plain.destinations.tolist()
+
+
+@pytest.mark.parametrize("text", ['# A hall.\n\n[area]\nrows = ["..", ".."]\n', '#\n\narea.rows = ["..", "#."]\n'])
+def test_toml_may_begin_with_a_comment(tmp_path, text):
+    (tmp_path / "hall").write_text(text)
+    assert read_area(tmp_path / "hall").barriers.sum() == text.count('"#')
+
+
+def test_a_wrong_letter_among_walls_is_told_as_such(tmp_path):
+    (tmp_path / "walls").write_text("#####\n#X.D#\n#####\n")
+    with pytest.raises(FormatError, match="row 1, column 1: unknown letter 'X'"):
+        read_area(tmp_path / "walls")

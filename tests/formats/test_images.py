@@ -114,3 +114,27 @@ def test_letters_may_have_a_size_but_no_radius(tmp_path):
     assert read_area(tmp_path / "a.txt", cell_size=0.5).frame == Frame(0.5)
     with pytest.raises(FormatError, match="has one cell for each letter; robot_radius needs a place with walls"):
         read_area(tmp_path / "a.txt", cell_size=0.5, robot_radius=0.1)
+
+
+def pfm(values):
+    rows, columns = np.shape(values)
+    return f"Pf\n{columns} {rows}\n-1.0\n".encode() + np.asarray(values, dtype="<f4")[::-1].tobytes()
+
+
+def test_a_pfm_is_as_bright_as_its_numbers_say(tmp_path):
+    (tmp_path / "a.pfm").write_bytes(pfm([[0.0, 0.49], [0.51, 1.0]]))
+    assert read_area(tmp_path / "a.pfm").barriers.tolist() == [[True, True], [False, False]]
+
+
+@pytest.mark.parametrize("wrong", [255.0, -0.1, float("nan"), float("inf")])
+def test_a_pfm_of_other_numbers_is_refused(tmp_path, wrong):
+    (tmp_path / "a.pfm").write_bytes(pfm([[0.0, wrong]]))
+    with pytest.raises(FormatError, match=f"brightness in a PFM must be a number from 0 to 1, not {wrong:g}"):
+        read_area(tmp_path / "a.pfm")
+
+
+@pytest.mark.parametrize(("size", "told"), [("12000 9000", "12000 x 9000"), ("20000 20000", "400000000")])
+def test_an_image_too_large_is_told_both_sizes_and_the_way_out(tmp_path, size, told):
+    (tmp_path / "a.pgm").write_bytes(f"P5\n{size}\n255\n".encode() + bytes(70))
+    with pytest.raises(FormatError, match=rf"at most 100000000 pixels, not {told}: cut off .*, or shrink it"):
+        read_area(tmp_path / "a.pgm")

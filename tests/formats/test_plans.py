@@ -9,8 +9,19 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from tests.formats.strategies import FRAMES, NAMES, walks
-from trihex import Area, FormatError, Plan, Scenario, Tessellation, read_plan, read_scenario, write_plan, write_scenario
-from trihex.areas import Frame
+from trihex import (
+    Area,
+    FormatError,
+    Plan,
+    Scenario,
+    ScenarioError,
+    Tessellation,
+    read_plan,
+    read_scenario,
+    write_plan,
+    write_scenario,
+)
+from trihex.areas import Claim, Frame
 from trihex.formats.plans.npz import write_plan_npz
 from trihex.kernels.codes import JUMP, WAIT
 from trihex.plans import plan_from_lists
@@ -218,3 +229,25 @@ def test_a_bomb_is_refused_before_it_is_unpacked(tmp_path, entries, monkeypatch)
     np.savez_compressed(tmp_path / "bomb.npz", **entries)
     with pytest.raises(FormatError, match="must unpack to at most 1048576 bytes"):
         read_plan(tmp_path / "bomb.npz")
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".npz", ".parquet"])
+@pytest.mark.parametrize(
+    ("robots", "message"),
+    [
+        ([(1, 1), (0, 0)], r"robot 0 must stand on a free cell; \(1, 1\) is a barrier"),
+        ([(0, 0), (2, 0), (0, 0)], r"robots 0 and 2 both start at \(0, 0\)"),
+    ],
+)
+def test_impossible_starts_are_read_for_the_judge_alone(tmp_path, suffix, robots, message):
+    scenario = Scenario(Area("hexagonal", [[0, 0, 0], [0, 1, 0]]), [(2, 1)])
+    claim = Claim(scenario.area, scenario.destinations, robots)
+    plan = plan_from_lists(claim, [[WAIT]] * len(robots))
+    write_plan(plan, path := tmp_path / f"plan{suffix}")
+    own = None if suffix == ".npz" else scenario
+    with pytest.raises(ScenarioError, match=message):
+        read_plan(path, own)
+    assert read_plan(path, own, for_judge=True) == plan
+    possible = plan_from_lists(scenario.with_robots([(0, 0)]), [[WAIT]])
+    write_plan(possible, path)
+    assert type(read_plan(path, own, for_judge=True).scenario) is Scenario

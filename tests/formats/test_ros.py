@@ -161,3 +161,68 @@ def test_a_map_needs_a_cell_size_and_its_image(tmp_path):
     (tmp_path / "map.pgm").unlink()
     with pytest.raises(FileNotFoundError, match=r"map\.pgm"):
         read_area(path, cell_size=1.0)
+
+
+@settings(deadline=None, max_examples=30)
+@given(
+    colours=st.lists(st.tuples(*[st.integers(0, 255) | st.sampled_from([0, 255])] * 4), min_size=6, max_size=6),
+    negate=st.booleans(),
+    unknown=st.sampled_from(["barrier", "free"]),
+)
+def test_in_mode_trinary_opacity_counts_as_a_fourth_colour_as_in_map_server(tmp_path_factory, colours, negate, unknown):
+    folder = tmp_path_factory.mktemp("alpha")
+    image = np.array(colours, dtype=np.uint8).reshape(2, 3, 4)
+    path = write_map(folder, image, image="map.png")
+    path.write_text(path.read_text().replace("negate: 0", f"negate: {int(negate)}"))
+    barriers = read_pixels_as_cells(path, unknown=unknown)
+    for y, x in np.ndindex(2, 3):
+        shade = image[y, x].sum() / 4 / 255
+        p = shade if negate else 1 - shade
+        if min(abs(p - 0.65), abs(p - 0.196)) < 1 / 255:
+            continue  # grey is kept in whole steps
+        state = "occupied" if p > 0.65 else "free" if p < 0.196 else "unknown"
+        assert barriers[y, x] == (state == "occupied" or (state == "unknown" and unknown == "barrier"))
+
+
+def test_transparent_white_is_unknown_in_mode_trinary(tmp_path):
+    image = np.full((1, 3, 4), 255, dtype=np.uint8)
+    image[0, 1, 3] = 0
+    path = write_map(tmp_path, image, image="map.png")
+    assert read_area(path, "square", cell_size=0.02).barriers[2, 2::5].tolist() == [False, True, False]
+    assert read_area(path, "square", cell_size=0.02, unknown="free").free_count == 5 * 15
+    (tmp_path / "map.png").unlink()
+    Image.fromarray(image[..., :3]).save(tmp_path / "map.png")  # no such channel: white is free
+    assert read_area(path, "square", cell_size=0.02).barriers[2, 2::5].tolist() == [False, False, False]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "{image: map.pgm, resolution: 0.1, origin: [-2.0, 3.0, 0.0], negate: 0}",
+        '{"image":"map.pgm","resolution":0.1,"origin":[-2.0,3.0,0.0],"negate":0,"mode":"trinary"}',
+        '\n{\n  "image": "map.pgm",\n  "resolution": 0.1,  # metres\n  "origin": [-2.0,\n 3.0, 0.0]\n}\n',
+        "# {made by hand}\n---\n{mode: 'trinary', image: \"map.pgm\", resolution: 0.1, origin: [-2, 3, 0]}",
+        '"image": map.pgm\n\'resolution\': 0.1\n"origin": [-2, 3, 0]\n',
+    ],
+)
+def test_a_map_file_may_be_written_in_the_style_of_json(tmp_path, text):
+    grey = np.full((4, 4), 254)
+    grey[1, 2] = 0
+    path = write_map(tmp_path, grey)
+    plain = read_area(path, "square", cell_size=0.05)
+    path.write_text(text)
+    assert read_area(path, "square", cell_size=0.05) == plain
+    if not text.startswith("#"):  # known by its content
+        assert path.rename(tmp_path / "place") and read_area(tmp_path / "place", "square", cell_size=0.05) == plain
+
+
+def test_a_mistake_in_the_style_of_json_is_told(tmp_path):
+    path = write_map(tmp_path, np.full((4, 4), 254))
+    path.write_text('{"image": "map.pgm", "resolutoin": 0.1, "origin": [0, 0, 0]}')
+    with pytest.raises(FormatError, match="must have the key 'resolution'; is it 'resolutoin'"):
+        read_area(path, cell_size=0.5)
+
+
+def test_a_map_smaller_than_a_cell_is_told(tmp_path):
+    with pytest.raises(FormatError, match=r"must be larger than a cell of 5 metres, not 0\.4 by 0\.4 metres"):
+        read_area(write_map(tmp_path, np.full((4, 4), 254)), cell_size=5)

@@ -8,6 +8,7 @@ import trihex as th
 from tests.oracles.rules import judge
 from tests.strategies import scenarios
 from tests.sweeps import swept
+from trihex.areas import Claim
 from trihex.judging.conflict import KINDS
 from trihex.kernels.codes import JUMP, WAIT
 from trihex.plans import plan_from_lists
@@ -193,3 +194,46 @@ def test_the_judge_agrees_with_one_that_draws_polygons(scenario, seed):
     assert sorted(found) == judge(plan)
     assert audit.conflict_count == len(found)
     assert [c.step for c in audit.conflicts] == sorted(c.step for c in audit.conflicts)
+
+
+@settings(deadline=None)
+@given(data=st.data(), tessellation=st.sampled_from(th.areas.TESSELLATIONS))
+def test_what_is_wrong_before_the_first_step_is_found_at_step_0(data, tessellation):
+    barriers = np.array(data.draw(st.lists(st.booleans(), min_size=20, max_size=20))).reshape(4, 5)
+    cells = st.integers(0, 19)
+    destinations = data.draw(st.lists(cells, min_size=1, max_size=3, unique=True))
+    robots = data.draw(st.lists(cells, max_size=8))
+    claim = Claim(th.Area(tessellation, barriers), np.array(destinations), np.array(robots, dtype=int))
+    acts = data.draw(st.lists(st.integers(0, 2), min_size=len(robots), max_size=len(robots)))
+    audit = th.audit_plan(plan_from_lists(claim, [[WAIT] * own for own in acts]), limit=1000)
+    is_barrier = barriers.reshape(-1)
+    expected = sorted(
+        [("barrier", (), cell) for cell in destinations if is_barrier[cell]]
+        + [("barrier", (robot,), cell) for robot, cell in enumerate(robots) if is_barrier[cell]]
+        + [
+            ("cell", (robots.index(cell), robot), cell)
+            for robot, cell in enumerate(robots)
+            if robots.index(cell) < robot
+        ]
+    )
+    found = [one for one in audit.conflicts if one.step == 0 and one.kind in ("barrier", "cell")]
+    assert sorted((one.kind, one.robots, one.cells[0][1] * 5 + one.cells[0][0]) for one in found) == expected
+    assert audit.is_clean == (audit.conflict_count == 0) and audit.conflict_count >= len(expected)
+    report = th.make_report(audit.plan, audit=audit)
+    assert not expected or not report.optimal
+
+
+def test_a_robot_parked_on_a_barrier_does_not_open_it():
+    area = th.Area("square", [[0, 1, 0]])
+    plan = plan_from_lists(Claim(area, [(2, 0)], [(1, 0), (0, 0)]), [[], [E, E]])
+    assert [str(conflict) for conflict in th.audit_plan(plan).conflicts] == [
+        "step 0: robot 0 starts on the barrier (1, 0)",
+        "step 1: robots 0 and 1 are both in cell (1, 0)",
+        "step 1: robot 1 moves from (0, 0) onto the barrier (1, 0)",
+    ]
+
+
+def test_nobody_plans_for_a_claim():
+    claim = Claim(th.Area("square", [[0, 1, 0]]), [(2, 0)], [(1, 0)])
+    with pytest.raises(th.ScenarioError, match=r"robot 0 must stand on a free cell; \(1, 0\) is a barrier"):
+        th.make_plan(claim)

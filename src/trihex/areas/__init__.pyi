@@ -2,6 +2,11 @@ from .area import (
     MAX_CELLS as MAX_CELLS,
     Area as Area,
 )
+from .claim import (
+    Claim as Claim,
+    check_possible as check_possible,
+    claimed as claimed,
+)
 from .coverage import (
     Covering as Covering,
     cover_polygons as cover_polygons,

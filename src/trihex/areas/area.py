@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -11,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from trihex.areas.frame import Frame
 from trihex.areas.hexagons import axial_to_xy, whole, xy_to_axial
 from trihex.areas.layout import Layout
+from trihex.areas.nearest import nearest_free_cell
 from trihex.areas.places import numbers_from
 from trihex.areas.tessellation import Tessellation, tessellation_from
 from trihex.errors import AreaError, TessellationError, check_type, kind_of
@@ -18,6 +20,10 @@ from trihex.record import Record, read_only
 
 # Sites are int32, and the widest kernels keep some 40 bytes a cell.
 MAX_CELLS = 2_000_000_000
+MAX_NAME = 1000
+_FAR = 1e12  # edge steps; farther numbers are no cells
+# No writer can keep these: control characters, and what stands for the bytes of a file name that is not UTF-8.
+_UNWRITABLE = re.compile("[\\x00-\\x1f\\x7f-\\x9f\\ud800-\\udfff\\ufffe\\uffff]")
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,14 +37,15 @@ class Area(Record):
     barriers : array_like of bool, shape (height, width)
         True, or 1, where a cell is a barrier; row 0 is the north, column 0 the west.
     name : str
-        For reports; a reader puts the name of the file here.
+        For reports; a reader puts the name of the file here. Characters that no file can keep become U+FFFD.
     frame : Frame, optional
         Where the area lies in the world; None if it is measured in cells only.
 
     Raises
     ------
     AreaError
-        If `barriers` is not a rectangle of at least one cell, or holds anything but True and False, 1 and 0.
+        If `barriers` is not a rectangle of at least one cell, or holds anything but True and False, 1 and 0, or if
+        `name` is too long.
 
     Examples
     --------
@@ -55,6 +62,9 @@ class Area(Record):
     def __post_init__(self) -> None:
         self._set("tessellation", tessellation_from(self.tessellation))
         check_type("frame", self.frame, Frame, type(None))
+        if not isinstance(self.name, str) or len(self.name) > MAX_NAME:
+            raise AreaError(f"name must be text of at most {MAX_NAME} characters, not {self.name!r:.40}")
+        self._set("name", _UNWRITABLE.sub("\ufffd", self.name))
         barriers = _barriers_from(self.barriers)
         if barriers.ndim != 2 or barriers.size == 0:
             raise AreaError(f"barriers must have shape (height, width) with at least one cell, not {barriers.shape}")
@@ -222,8 +232,21 @@ class Area(Record):
         outside = (cell_x < 0) | (cell_y < 0) | (cell_x >= self.width) | (cell_y >= self.height)
         if np.any(outside):
             at = np.unravel_index(int(np.argmax(outside)), outside.shape)
-            raise AreaError(f"point ({x[at]:g}, {y[at]:g}) metres lies outside the area")
+            raise AreaError(self._why_outside(float(x[at]), float(y[at]), float(px[at]), float(py[at])))
         return self.xy_to_cell(cell_x, cell_y)
+
+    def _why_outside(self, x: float, y: float, px: float, py: float) -> str:
+        """Return what is wrong with a point that lies in no cell, and where the nearest free cell is."""
+        why = f"point ({x:g}, {y:g}) metres lies outside the area: in none of its cells"
+        if not np.isfinite([px, py]).all():
+            return why
+        px, py = (float(number) for number in np.clip([px, py], -_FAR, _FAR))
+        near = nearest_free_cell(self.tessellation, self.barriers, px, py)
+        if near is None:
+            return f"{why}, of which none is free"
+        cell = int(self.xy_to_cell(*near))
+        away = np.hypot(*np.subtract(self.cell_to_metres(cell), (x, y)))
+        return f"{why}; the nearest free cell is {self.place_of_cell(cell)}, {away:.3g} metres away"
 
     def cell_to_metres(self, cells: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return where the centres of cells given by number lie in the world.
@@ -245,6 +268,13 @@ class Area(Record):
     def name_of_cell(self, cell: int) -> str:
         """Return ``(x, y)`` as text, for messages."""
         return f"({cell % self.width}, {cell // self.width})"
+
+    def place_of_cell(self, cell: int) -> str:
+        """Return ``(x, y)`` as text, and where that is in metres if the area has a frame."""
+        if self.frame is None:
+            return self.name_of_cell(cell)
+        x, y = self.cell_to_metres(cell)
+        return f"{self.name_of_cell(cell)} at ({x:g}, {y:g}) metres"
 
 
 def _barriers_from(given: object) -> NDArray[np.bool_]:

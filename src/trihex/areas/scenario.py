@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from trihex.areas.area import Area
 from trihex.areas.clearance import check_cell_size, check_rules
+from trihex.areas.nearest import nearest_free_cell
 from trihex.areas.places import cells_from
 from trihex.errors import ScenarioError, check_choice, check_type, check_whole
 from trihex.record import Record, counted, read_only
@@ -88,12 +89,18 @@ class Scenario(Record):
             check_rules(area.tessellation, area.frame, self.crossing, self.destination_capacity)
         for parameter, one in (("destinations", "destination"), ("robots", "robot")):
             cells = cells_from(area, getattr(self, parameter), parameter, ScenarioError)
-            _check_free(area, cells, one)
+            self._check_free(cells, one)
             self._set(parameter, read_only(np.array(cells)))
         if self.destinations.size == 0:
             raise ScenarioError("destinations must name at least one cell")
         self._set("destinations", read_only(_without_repeats(self.destinations)))
-        _check_distinct(area, self.robots)
+        self._check_distinct()
+
+    def _check_free(self, cells: NDArray[np.int64], one: str) -> None:
+        _check_free(self.area, cells, one)
+
+    def _check_distinct(self) -> None:
+        _check_distinct(self.area, self.robots)
 
     def in_words(self) -> str:
         """Return the area, how many destinations and robots, and rules that are not those of the paper."""
@@ -203,36 +210,18 @@ def random_robots(area: Area, count: int, seed: int = 0, *, avoid: Any = ()) -> 
 def _check_free(area: Area, cells: NDArray[np.int64], one: str) -> None:
     stuck = np.flatnonzero(area.is_barrier(cells)) if cells.size else cells
     if stuck.size:
-        number, where, why = int(stuck[0]), area.name_of_cell(int(cells[stuck[0]])), ""
+        number, where, why = int(stuck[0]), area.place_of_cell(int(cells[stuck[0]])), ""
         if area.frame is not None:
-            where += _metres_of(area, int(cells[number]))
             radius = area.frame.robot_radius
             why = (
                 f": something stands too near for robots of radius {radius:g}" if radius else ": something stands there"
             )
-        near = _free_cell_near(area, int(cells[number]))
-        hint = "" if near is None else f"; the nearest free cell is {area.name_of_cell(near)}{_metres_of(area, near)}"
+        x, y = area.tessellation.centre_of_cell(*area.cell_to_xy(cells[number]))
+        near = nearest_free_cell(area.tessellation, area.barriers, float(x), float(y))
+        hint = "; no cell of the area is free"
+        if near is not None:
+            hint = f"; the nearest free cell is {area.place_of_cell(int(area.xy_to_cell(*near)))}"
         raise ScenarioError(f"{one} {number} must stand on a free cell; {where} is a barrier{why}{hint}")
-
-
-def _metres_of(area: Area, cell: int) -> str:
-    if area.frame is None:
-        return ""
-    x, y = area.cell_to_metres(cell)
-    return f" at ({x:g}, {y:g}) metres"
-
-
-def _free_cell_near(area: Area, cell: int) -> int | None:
-    """Return the free cell whose centre is nearest to that of `cell`, looked for within 50 rows and columns."""
-    x, y = (int(number) for number in area.cell_to_xy(cell))
-    left, top = max(0, x - 50), max(0, y - 50)
-    rows, columns = np.nonzero(~area.barriers[top : y + 51, left : x + 51])
-    if rows.size == 0:
-        return None
-    px, py = area.tessellation.centre_of_cell(columns + left, rows + top)
-    cx, cy = area.tessellation.centre_of_cell(x, y)
-    nearest = int(np.argmin((px - cx) ** 2 + (py - cy) ** 2))
-    return int(area.xy_to_cell(int(columns[nearest]) + left, int(rows[nearest]) + top))
 
 
 def _check_distinct(area: Area, robots: NDArray[np.int64]) -> None:

@@ -33,7 +33,7 @@ def command(plan: Path, area: Path | None, limit: int, summary: Path | None, **o
     from trihex.judging import audit_plan, count_corner_moves
 
     check_outputs((summary, (), "a summary"))
-    judged = read_judged(plan, area, options)
+    judged = read_judged(plan, area, options, for_judge=True)
     with bar("judging", "actions") as progress:
         audit = audit_plan(judged, limit=limit, progress=progress)
     if summary:
@@ -47,7 +47,18 @@ def command(plan: Path, area: Path | None, limit: int, summary: Path | None, **o
     if audit.is_clean:
         return DONE
     click.echo("\n".join(conflict_lines(audit, limit)), err=str(summary) == "-")
+    if judged.jumps.size and plan.suffix.lower() != ".npz":
+        _tell_likeness(plan, judged.scenario)
     return NO
+
+
+def _tell_likeness(plan: Path, scenario: Any) -> None:
+    """Tell which tessellation a plan seems to be for in which robots jump."""
+    from trihex.files import read_bytes
+    from trihex.formats import likeness_of
+
+    if looks := likeness_of(read_bytes(plan), plan, scenario):
+        click.echo(f"trihex: {plan}{looks}", err=True)
 
 
 def _summarise(plan: Any, audit: Any, summary: Path) -> None:

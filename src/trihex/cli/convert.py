@@ -40,7 +40,7 @@ def command(source: Path, target: Path, area: Path | None, waypoints: bool, spee
             check_outputs((target, WAYPOINT_SUFFIXES, "waypoints"))
         else:
             check_outputs((target, dict.fromkeys((*PLAN_SUFFIXES, *WAYPOINT_SUFFIXES)), "a plan or waypoints"))
-        plan = read_judged(source, area, options)
+        plan = read_judged(source, area, options, add_area="--area AREA")
         if waypoints or target.suffix.lower() not in PLAN_SUFFIXES:
             write_waypoints(plan, target, speed=speed)
         else:

@@ -10,6 +10,7 @@ import sys
 import threading
 from collections.abc import Iterable, Iterator, Sequence
 from importlib import import_module
+from io import TextIOWrapper
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -71,6 +72,8 @@ class Commands(click.Group):
         status: int = FAULT
         loading.is_alone = True
         preparing.watch = show_compiling
+        if isinstance(sys.stdout, TextIOWrapper):  # a path is told as it is, even if it is not UTF-8
+            sys.stdout.reconfigure(errors="surrogateescape")
         if threading.current_thread() is threading.main_thread():
             # As for Ctrl-C, what is half-written is removed.
             signal.signal(signal.SIGTERM, lambda *_: sys.exit(TERMINATED))

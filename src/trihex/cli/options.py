@@ -99,7 +99,9 @@ def robot_options(command: Command) -> Command:
             metavar="FILE",
             help="CSV of their cells, header x,y, or places, header x_metres,y_metres; or a MovingAI .scen.",
         ),
-        click.option("--robots", type=Whole(0), help="How many robots to draw at random."),
+        click.option(
+            "--robots", type=Whole(0), help="How many robots to draw at random, or to take from --starts, the first."
+        ),
     ):
         command = option(command)
     return command
@@ -151,14 +153,17 @@ def _changed(draft: Draft, options: dict[str, Any]) -> Draft:
         cells = [_cell_of(draft.area, place) for place in options["destination"]]
         changes["destinations"] = cells_from(draft.area, cells, "--destination", ScenarioError)
     count, starts, seed = options.get("robots"), options.get("starts"), options.get("seed")
-    if count is not None and starts is not None:
-        raise wrong_use("--robots and --starts exclude each other")
-    if count is not None:
+    if count is not None and starts is None:
         changes |= {"random_count": count, "robots": None, "seed": seed}
+    elif seed is not None and count is not None:
+        raise wrong_use("--seed draws robots; with --starts none are drawn")
     elif seed is not None and (starts is not None or draft.random_count is None):
         raise wrong_use("--seed draws robots: add --robots N")
     elif starts is not None:
-        changes |= {"robots": read_starts(starts, draft.area), "random_count": None, "seed": None}
+        robots = read_starts(starts, draft.area)
+        if count is not None and count > robots.size:
+            raise wrong_use(f"--robots takes the first of {starts}: at most {robots.size}, not {count}")
+        changes |= {"robots": robots[:count], "random_count": None, "seed": None}
         if format_of(read_bytes(starts), starts) == "scen":
             click.echo(f"trihex: goals of {starts} are not used: all robots go to the destinations", err=True)
     elif seed is not None:
@@ -200,10 +205,13 @@ def complete(draft: Draft, *uses: str, needs_robots: bool = True) -> Scenario:
     return draft.complete()
 
 
-def read_judged(path: Path, area: Path | None, options: dict[str, Any]) -> Plan:
+def read_judged(
+    path: Path, area: Path | None, options: dict[str, Any], *, add_area: str = "AREA", for_judge: bool = False
+) -> Plan:
     """Return the plan at `path`; what `area` and the options say comes before what it says itself."""
     from dataclasses import replace
 
+    from trihex.areas import claimed
     from trihex.files import read_bytes
     from trihex.formats import FORMATS, draft_of, format_of, read_draft, read_plan
 
@@ -212,11 +220,11 @@ def read_judged(path: Path, area: Path | None, options: dict[str, Any]) -> Plan:
         raise wrong_use(f"{path} must hold a plan (.npz, .csv or .parquet), not {form.words}")
     if not form.brings_scenario:
         if area is None:
-            raise wrong_use(f"{path} does not hold its area: add AREA")
+            raise wrong_use(f"{path} does not hold its area: add {add_area}")
         scenario = complete(read_described(area, options), needs_robots=False)
         with bar("reading", "rows") as progress:
-            return read_plan(path, scenario, progress=progress)
-    plan = read_plan(path)
+            return read_plan(path, scenario, for_judge=for_judge, progress=progress)
+    plan = read_plan(path, for_judge=for_judge)
     own = plan.scenario.area.tessellation
     for name, was in (("tessellation", own.name), ("neighbourhood", own.neighbourhood)):
         if options[name] not in (None, was):
@@ -228,7 +236,10 @@ def read_judged(path: Path, area: Path | None, options: dict[str, Any]) -> Plan:
     elif any(value is not None for value in place.values()):
         raise wrong_use(f"{path} holds its area itself, so how to read one cannot be told")
     draft = replace(draft, area=draft.area.with_tessellation(replace(own, costs=options["costs"] or own.costs)))
-    scenario = _changed(draft, options).complete()
+    draft = _changed(draft, options)
+    if options["destination"]:  # whoever names a barrier here is wrong, not the plan
+        replace(draft, robots=None).complete()
+    scenario = claimed(draft.complete) if for_judge else draft.complete()
     return plan if scenario == plan.scenario else replace(plan, scenario=scenario, optimal=False)
 
 

@@ -100,6 +100,9 @@ def _check_outputs(outputs: dict[str, Any], write_scenario: Path | None) -> None
     """Raise unless all that is to be written can be."""
     from trihex.formats import PLAN_SUFFIXES, WAYPOINT_SUFFIXES
 
+    unnamed = [path for path in outputs.values() if write_scenario and not str(path).isprintable()]
+    if unnamed:
+        raise wrong_use(f"--write-scenario can name no output but in printable UTF-8, not {str(unnamed[0])!a:.200}")
     if outputs.get("picture"):  # what draws is imported only for who draws
         from trihex.pictures import PICTURE_SUFFIXES
 

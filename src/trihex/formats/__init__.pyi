@@ -6,6 +6,7 @@ from .field_npy import (
     write_field as write_field,
 )
 from .reading import (
+    likeness_of as likeness_of,
     read_area as read_area,
     read_draft as read_draft,
     read_plan as read_plan,

@@ -49,8 +49,8 @@ class Draft(Record):
     ground: Ground | None = None
     outputs: dict[str, Any] = field(default_factory=dict)
 
-    def complete(self) -> Scenario:
-        """Return the scenario; what is still open takes its default.
+    def complete(self, kind: type[Scenario] = Scenario) -> Scenario:
+        """Return the scenario, or the claim, for the judge; what is still open takes its default.
 
         Robots are drawn among the cells that reach a destination, or, where these are too few, among all free cells.
 
@@ -63,7 +63,7 @@ class Draft(Record):
         if len(destinations) == 0:
             raise ScenarioError("destinations must name at least one cell")
         rules = {"crossing": self.crossing, "corners": self.corners}
-        scenario = Scenario(
+        scenario = kind(
             self.area,
             destinations,  # type: ignore[arg-type]
             () if self.robots is None else self.robots,  # type: ignore[arg-type]

@@ -7,9 +7,9 @@ from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
 
-from trihex.areas import Area, Scenario, Tessellation
+from trihex.areas import TESSELLATIONS, Area, Scenario, Tessellation, check_possible
 from trihex.areas.coverage import Progress
-from trihex.errors import FormatError, check_options, check_type
+from trihex.errors import FormatError, TrihexError, check_options, check_type
 from trihex.files import read_bytes
 from trihex.formats.areas.options import AreaOptions
 from trihex.formats.draft import Draft, draft_of
@@ -130,7 +130,11 @@ def read_scenario(
 
 
 def read_plan(
-    path: str | os.PathLike[str], scenario: Scenario | None = None, *, progress: Progress | None = None
+    path: str | os.PathLike[str],
+    scenario: Scenario | None = None,
+    *,
+    for_judge: bool = False,
+    progress: Progress | None = None,
 ) -> Plan:
     """Return the plan of a ``.npz``, ``.csv`` or ``.parquet`` file.
 
@@ -140,6 +144,8 @@ def read_plan(
     scenario : Scenario, optional
         For CSV and Parquet, which keep neither area nor rules: what the plan was made for. Its robots are not looked
         at. A plan in ``.npz`` brings its own.
+    for_judge : bool
+        Whether starts on barriers or in one cell, with which nothing can be done but `audit_plan`, are let through.
     progress : callable, optional
         Called with (rows read, all rows) of a CSV.
 
@@ -147,6 +153,8 @@ def read_plan(
     ------
     FormatError
         If the file is not what it claims to be, or keeps no area and there is no scenario.
+    ScenarioError
+        If robots start on barriers or in one cell.
     OSError
         If it cannot be read.
     """
@@ -157,5 +165,33 @@ def read_plan(
         raise FormatError(f"{path}: must hold a plan (.npz, .csv or .parquet), not {form.words}")
     if scenario is None and not form.brings_scenario:
         raise FormatError(f"{path}: does not hold its area; name the area, destinations and rules as well")
-    plan: Plan = form.parse(content, path, scenario, progress)
+    try:
+        plan: Plan = form.parse(content, path, scenario, progress)
+    except FormatError as error:
+        raise FormatError(f"{error}{likeness_of(content, path, scenario)}") from None
+    if not for_judge:
+        check_possible(plan.scenario)
     return plan
+
+
+def likeness_of(content: bytes, path: str | os.PathLike[str], scenario: Scenario | None) -> str:
+    """Return which tessellation a plan of rows looks made for, in words: another one on which each move is a step.
+
+    Empty if there is none, or `scenario` is None.
+    """
+    if scenario is None:
+        return ""
+    form, own = FORMATS[format_of(content, path)], scenario.area.tessellation
+    for name in TESSELLATIONS:
+        if name == own.name:
+            continue
+        other = Tessellation(name, "full", own.costs)
+        area = Area(other, scenario.area.barriers)  # without a frame, which might forbid it
+        waiting_cost = scenario.waiting_cost if scenario.waiting_cost != own.edge_cost else other.edge_cost
+        try:
+            plan = form.parse(content, path, Scenario(area, scenario.destinations, waiting_cost=waiting_cost))
+        except TrihexError:
+            continue
+        if plan.actions.size and not plan.jumps.size:
+            return f"; the plan looks {name} (--tessellation {name}), not {own.name}"
+    return ""

@@ -83,6 +83,8 @@ def _first_line(pattern: str) -> bytes:
     return rf"\A[^\S\n]*(?:{pattern})[^\S\n]*(?:\n|\Z)".encode()
 
 
+# As YAML has it, or JSON.
+_ROS_KEY = rb"\s*[\"']?(?:image|resolution|origin|negate|occupied_thresh|free_thresh|mode)[\"']?\s*:"
 # What is recognised first stands first.
 _FORMATS = (
     Format(
@@ -92,7 +94,7 @@ _FORMATS = (
     Format("parquet", "a plan (.parquet)", "plan", "plans.parquet.parse_plan_parquet", rb"\APAR1", is_text=False),
     Format(
         "image", "an image", "area", "areas.image.parse_image",
-        rb"\A(?:\x89PNG|\xff\xd8\xff|GIF8|(?s:BM.{4}\0\0\0\0)|P[1-6]\s)", is_text=False,
+        rb"\A(?:\x89PNG|\xff\xd8\xff|GIF8|(?s:BM.{4}\0\0\0\0)|P[1-6Ff]\s)", is_text=False,
     ),
     Format("plan", "a plan (.csv)", "plan", "plans.csv.parse_plan_csv", _first_line(PLAN_HEADER)),
     Format(
@@ -105,20 +107,21 @@ _FORMATS = (
     ),
     Format("scen", "starts (.scen)", "starts", "starts.scen.parse_scen", rb"\A[^\S\n]*version(?:\s|\Z)", (".scen",)),
     Format(
-        "geojson", "GeoJSON", "area", "areas.geojson.parse_geojson", rb"\A\s*\{", (".geojson", ".json"),
-        most_bytes=MAX_JSON,
+        "geojson", "GeoJSON", "area", "areas.geojson.parse_geojson", rb"\A\s*\{(?!%s)" % _ROS_KEY,
+        (".geojson", ".json"), most_bytes=MAX_JSON,
     ),
     Format(
         "wkt", "WKT", "area", "areas.wkt.parse_wkt",
-        rb"(?i)\A\s*(?:(?:MULTI)?(?:POINT|LINESTRING|POLYGON)|GEOMETRYCOLLECTION)\b", (".wkt",), most_bytes=MAX_WKT,
+        rb"(?i)\A\s*(?:SRID\s*=\s*\d+\s*;\s*)?(?:(?:MULTI)?(?:POINT|LINESTRING|POLYGON)|GEOMETRYCOLLECTION)\b",
+        (".wkt",), most_bytes=MAX_WKT,
     ),
     Format(
         "ros", "a ROS map", "area", "areas.ros.parse_ros",
-        rb"^\s*(?:image|resolution|origin|negate|occupied_thresh|free_thresh)\s*:", (".yaml", ".yml"),
+        rb"(?:^|\A\s*\{)%s" % _ROS_KEY, (".yaml", ".yml"),
     ),
     Format(
         "scenario", "a scenario (.toml)", "scenario", "scenarios.toml.parse_scenario_toml",
-        rb"^\s*(?:#|\[\[?[\w.\"' -]+\]\]?\s*(?:#.*)?$|[\w.\"'-]+\s*=)", (".toml",),
+        rb"^\s*(?:\[\[?[\w.\"' -]+\]\]?\s*(?:#.*)?$|[\w.\"'-]+\s*=)", (".toml",),
         most_bytes=MAX_TOML, brings_scenario=True,
     ),
     Format("letters", "letters", "area", "areas.letters.parse_letters", rb"(?!)", is_of_letters=True),  # what is left

@@ -18,6 +18,7 @@ from trihex.errors import PlanError, check_type, check_whole
 from trihex.judging.conflict import STOPS, Conflict, conflict_from
 from trihex.judging.law import make_law, make_places
 from trihex.judging.reach import is_reachable
+from trihex.judging.starts import conflicts_of_starts
 from trihex.plans import Plan
 from trihex.record import Record, counted
 
@@ -86,6 +87,9 @@ def audit_plan(plan: Plan, limit: int = 100, *, progress: Callable[[int, int], N
     check_type("plan", plan, Plan)
     check_whole("limit", limit, 0, None, PlanError)
     found, count, site, stopped = _judged(plan, limit, progress)
+    at_start = conflicts_of_starts(plan.scenario)
+    found, count = np.concatenate([at_start, found]), count + len(at_start)
+    stopped = stopped[~plan.scenario.area.is_barrier(plan.scenario.robots[stopped])]
     if stopped.size:
         could = stopped[is_reachable(plan.scenario, plan.scenario.robots[stopped])]
         rows = np.full((could.size, found.shape[1]), -1, dtype=np.int32)

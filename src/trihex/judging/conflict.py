@@ -11,8 +11,8 @@ from trihex.areas import Scenario
 
 KINDS = ("cell", "exchange", "crossing", "jump", "barrier", "corner", "capacity", "arrival")
 
-# By the codes of `kernels.findings`, in their order, and STOPS: the kind, how many robots and cells belong to it, and
-# how it reads.
+# By the codes of `kernels.findings`, in their order, and those below: the kind, how many robots and cells belong to it,
+# and how it reads.
 _CODES = (
     ("cell", 2, 1, "robots {0} and {1} are both in cell {a}"),
     ("exchange", 2, 2, "robots {0} and {1} exchange cells {a} and {b}"),
@@ -24,8 +24,11 @@ _CODES = (
     ("capacity", 1, 1, "robot {0} is one too many to enter destination {a}"),
     ("arrival", 1, 1, "robot {0} acts on after it has entered destination {a}"),
     ("arrival", 1, 1, "robot {0} ends in {a}, which is no destination, though it could have reached one"),
+    ("barrier", 1, 1, "robot {0} starts on the barrier {a}"),
+    ("barrier", 0, 1, "destination {a} is a barrier"),
 )
-STOPS = len(_CODES) - 1
+SHARES_CELL = 0
+STOPS, STARTS_ON_BARRIER, AIMS_AT_BARRIER = range(len(_CODES) - 3, len(_CODES))
 
 
 @dataclass(frozen=True)
@@ -37,13 +40,15 @@ class Conflict:
     kind : str
         One of `KINDS`.
     step : int
-        The step in which it happens, from 1; 0 for robots that do not act, or start on a destination yet act.
+        The step in which it happens, from 1; 0 for robots that do not act, or start on a destination yet act, and for
+        starts and destinations that are impossible.
     robots : tuple of int
-        Numbers of the robots, ascending.
+        Numbers of the robots, ascending; none where a destination is a barrier.
     cells : tuple of (x, y)
         "cell": where both are. "exchange": where each came from. "crossing": from, to, from, to. "jump", "barrier",
-        "corner": from, to (only from, where a robot leaves the area). "capacity": the destination. "arrival": where the
-        robot stopped, or arrived before its last action.
+        "corner": from, to; only from, where a robot leaves the area; only the barrier, where it starts there or the
+        destination is one. "capacity": the destination. "arrival": where the robot stopped, or arrived before its last
+        action.
     text : str
         The same in words.
     """

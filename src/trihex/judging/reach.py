@@ -22,7 +22,7 @@ def is_reachable(scenario: Scenario, cells: NDArray[np.int64]) -> NDArray[np.boo
     search = given(
         kernels.Flood,
         mark=np.full(layout.size, kernels.UNKNOWN, dtype=np.uint8),
-        queue=np.empty(area.free_count, dtype=np.int32),
+        queue=np.empty(area.free_count + scenario.destinations.size, dtype=np.int32),  # these may be barriers
         state=np.zeros(5, dtype=np.int64),
     )
     while search.state[kernels.NEXT] < start.size:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from trihex.areas import Claim
 from trihex.bounds import LowerBound, distance_bound, make_lower_bound
 from trihex.errors import check_type
 from trihex.fields import NScheme, make_n_scheme
@@ -200,6 +201,6 @@ def make_report(
     # Where the optimum is proven no bound is asked for, so a cheap one will do until that is known.
     cheap = distance_bound(n_scheme)
     report = Report(plan, audit, lower_bound or cheap, n_scheme.unreachable_robots, dict(seconds or {}))
-    if lower_bound is None and not report.optimal:
+    if lower_bound is None and not report.optimal and not isinstance(plan.scenario, Claim):
         report = replace(report, bound=make_lower_bound(n_scheme))
     return report

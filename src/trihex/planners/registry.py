@@ -13,7 +13,7 @@ from difflib import get_close_matches
 from importlib import import_module
 from typing import Any, Literal, overload
 
-from trihex.areas import Scenario
+from trihex.areas import Scenario, check_possible
 from trihex.errors import PlanError, check_choice, check_type
 from trihex.fields import NScheme, field_kernels, make_n_scheme
 from trihex.kernels.preparing import prepare
@@ -148,6 +148,8 @@ def make_plan(
     ------
     PlanError
         If there is no such planner, record or option of the planner, or `n_scheme` belongs to another scenario.
+    ScenarioError
+        If the scenario is but claimed by a plan in a file (`read_plan` with `for_judge`), and impossible.
 
     Examples
     --------
@@ -158,6 +160,7 @@ def make_plan(
     """
     check_type("scenario", scenario, Scenario)
     check_type("n_scheme", n_scheme, NScheme, type(None))
+    check_possible(scenario)
     plan = planner_named(planner)
     check_choice("record", record, RECORDS, PlanError)
     check_planner_options(planner, options)

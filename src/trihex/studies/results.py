@@ -128,7 +128,8 @@ def _write_parquet(rows: Iterable[Row], path: Path) -> None:
     types = {int: arrow.int64(), float: arrow.float64(), str: arrow.string(), bool: arrow.bool_()}
     schema = arrow.schema([(name, types[kind]) for name, kind in COLUMNS.items()])
     rows = iter(rows)
-    with parquet.ParquetWriter(path, schema, compression="zstd") as writer:
+    # Arrow takes no path that is not UTF-8.
+    with open(path, "wb") as file, parquet.ParquetWriter(file, schema, compression="zstd") as writer:
         while some := list(islice(rows, _ROWS_AT_ONCE)):
             writer.write_table(arrow.Table.from_pylist(some, schema))
 

@@ -11,7 +11,7 @@ from trihex.areas import import_shapely
 from trihex.areas.coverage import Progress
 from trihex.errors import FormatError, check_choice
 from trihex.formats.areas.options import AreaOptions
-from trihex.formats.areas.polygons import Place, draft_of_place
+from trihex.formats.areas.polygons import Drawn, Place, checked_parts, draft_of_place
 from trihex.formats.draft import Draft
 from trihex.formats.text import Text
 
@@ -32,25 +32,19 @@ def parse_geojson(text: Text, path: str | os.PathLike[str], options: AreaOptions
     MissingExtraError
         If shapely is not installed.
     """
-    shapely = import_shapely()
+    import_shapely()
     try:
         document = json.loads(text)
     except RecursionError:
         raise FormatError(f"{path}: is nested too deeply") from None
     except ValueError as error:
         raise FormatError(f"{path}: is no JSON: {error}") from None
-    parts: dict[str, list[Any]] = {kind: [] for kind in KINDS}
+    parts: dict[str, list[Drawn]] = {kind: [] for kind in KINDS}
     for where, geometry, kind in _features(document, str(path)):
-        for leaf in _leaves(geometry, where):
-            shape = shapely.force_2d(_shape(leaf, where))
-            is_area = leaf["type"].endswith("Polygon")
-            if kind is None and not is_area:
-                raise FormatError(f"{where}: a {leaf['type']} must have the property kind: one of {', '.join(KINDS)}")
-            own = kind or "free"
-            if (own == "free" and not is_area) or (own == "robot" and not leaf["type"].endswith("Point")):
-                must = "a polygon" if own == "free" else "a point"
-                raise FormatError(f"{where}: what is {own!r} must be {must}, not a {leaf['type']}")
-            parts[own].append(shape)
+        drawn = [one for leaf in _leaves(geometry, where) for one in checked_parts(where, _shape(leaf, kind, where))]
+        if kind in ("destination", "robot") and (not drawn or any(shape.is_empty for _, shape in drawn)):
+            raise FormatError(f"{where}: a {kind} must have coordinates; it has none")
+        parts[kind or "free"] += [one for one in drawn if not one.shape.is_empty]
     return draft_of_place(Place(path, **parts), options, progress)
 
 
@@ -72,8 +66,8 @@ def _features(document: Any, path: str) -> Iterator[tuple[str, Any, str | None]]
         kind = properties.get("kind") if isinstance(properties, dict) else None
         if kind is not None:
             check_choice(f"{where}: kind", kind, KINDS, FormatError)
-        if feature.get("geometry") is not None:
-            yield where, feature["geometry"], kind
+        nothing = {"type": "GeometryCollection", "geometries": []}
+        yield where, nothing if feature.get("geometry") is None else feature["geometry"], kind
 
 
 def _leaves(geometry: Any, where: str) -> Iterator[dict[str, Any]]:
@@ -90,10 +84,17 @@ def _leaves(geometry: Any, where: str) -> Iterator[dict[str, Any]]:
             yield one
 
 
-def _shape(leaf: dict[str, Any], where: str) -> Any:
-    """Return the geometry of shapely; GEOS looks at the coordinates itself."""
+def _shape(leaf: dict[str, Any], kind: str | None, where: str) -> Any:
+    """Return the geometry of shapely, if its kind may have it; GEOS looks at the coordinates itself."""
     import shapely
 
+    is_area = leaf["type"].endswith("Polygon")
+    if kind is None and not is_area:
+        raise FormatError(f"{where}: a {leaf['type']} must have the property kind: one of {', '.join(KINDS)}")
+    own = kind or "free"
+    if (own == "free" and not is_area) or (own == "robot" and not leaf["type"].endswith("Point")):
+        must = "a polygon" if own == "free" else "a point"
+        raise FormatError(f"{where}: what is {own!r} must be {must}, not a {leaf['type']}")
     try:
         return shapely.from_geojson(json.dumps({"type": leaf["type"], "coordinates": leaf.get("coordinates")}))
     except (shapely.errors.ShapelyError, ValueError, RecursionError) as error:

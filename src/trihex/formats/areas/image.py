@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import os
+import re
 import warnings
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,10 +31,15 @@ MAX_PIXELS = 10**8
 _ROWS_AT_ONCE = 256
 
 
-def read_pixels(content: bytes, path: object) -> tuple[NDArray[np.uint8], NDArray[np.bool_]]:
-    """Return the brightness of each pixel, 0 to 255, and whether it is opaque, shape (rows, columns) each.
+class Pixels(NamedTuple):
+    """The pixels of an image, 0 to 255, shape (rows, columns) each."""
 
-    Colours count as the mean of red, green and blue.
+    grey: NDArray[np.uint8]  # brightness; of colours the mean of red, green and blue
+    alpha: NDArray[np.uint8] | None  # how opaque; None if the image has no such channel
+
+
+def read_pixels(content: bytes, path: object) -> Pixels:
+    """Return the brightness of each pixel, and how opaque it is.
 
     Raises
     ------
@@ -48,35 +54,49 @@ def read_pixels(content: bytes, path: object) -> tuple[NDArray[np.uint8], NDArra
             with Image.open(BytesIO(content), formats=KINDS) as image:
                 width, height = image.size
                 if width * height > MAX_PIXELS:
-                    raise FormatError(f"{path}: an image may have at most {MAX_PIXELS} pixels, not {width} x {height}")
+                    raise _too_large(path, f"{width} x {height}")
                 image.load()
-                return _grey(image)
+                return _pixels_of(image, path)
     except FormatError:
         raise
     except UnidentifiedImageError:
         raise FormatError(f"{path}: is no image that trihex reads ({', '.join(KINDS)})") from None
-    except Image.DecompressionBombError:
-        raise FormatError(f"{path}: an image may have at most {MAX_PIXELS} pixels") from None
+    except Image.DecompressionBombError as error:
+        found = re.search(r"\((\d+) pixels\)", str(error))
+        raise _too_large(path, found[1] if found else "more") from None
     except MemoryError:
         raise
     except Exception as error:  # decoders raise whatever they stumble on: struct.error, KeyError, zlib.error, ...
         raise FormatError(f"{path}: the image is damaged: {str(error) or type(error).__name__}") from None
 
 
-def _grey(image: Image) -> tuple[NDArray[np.uint8], NDArray[np.bool_]]:
-    if image.mode.startswith("I") or image.mode == "F":  # 16 bits a pixel
+def _too_large(path: object, size: str) -> FormatError:
+    return FormatError(
+        f"{path}: an image may have at most {MAX_PIXELS} pixels, not {size}: cut off what is not needed, or shrink it "
+        "(a half as wide has twice the resolution in metres)"
+    )
+
+
+def _pixels_of(image: Image, path: object) -> Pixels:
+    if image.mode == "F":  # a PFM
+        values = np.asarray(image)
+        if not ((values >= 0) & (values <= 1)).all():  # not so for nan
+            wrong = values[~((values >= 0) & (values <= 1))][0]
+            raise FormatError(f"{path}: brightness in a PFM must be a number from 0 to 1, not {wrong:g}")
+        return Pixels(np.round(values * 255).astype(np.uint8), None)
+    if image.mode.startswith("I"):  # 16 bits a pixel
         values = np.asarray(image).astype(np.float64)
-        return np.clip(np.round(values / 257), 0, 255).astype(np.uint8), np.ones(values.shape, dtype=bool)
-    if image.mode in ("1", "L"):
-        return np.asarray(image.convert("L")), np.ones((image.height, image.width), dtype=bool)
+        return Pixels(np.clip(np.round(values / 257), 0, 255).astype(np.uint8), None)
+    if image.mode in ("1", "L") and not image.has_transparency_data:
+        return Pixels(np.asarray(image.convert("L")), None)
     grey = np.empty((image.height, image.width), dtype=np.uint8)
-    is_opaque = np.empty(grey.shape, dtype=bool)
+    alpha = np.empty_like(grey)
     for top in range(0, image.height, _ROWS_AT_ONCE):  # four bytes a pixel, for some rows only
         rows = slice(top, min(top + _ROWS_AT_ONCE, image.height))
         colours = np.asarray(image.crop((0, rows.start, image.width, rows.stop)).convert("RGBA"))
         grey[rows] = np.round(colours[..., :3].sum(axis=2, dtype=np.uint16) / 3)
-        is_opaque[rows] = colours[..., 3] == 255
-    return grey, is_opaque
+        alpha[rows] = colours[..., 3]
+    return Pixels(grey, alpha if image.has_transparency_data else None)
 
 
 def parse_image(content: bytes, path: str | os.PathLike[str], options: AreaOptions, progress: Progress | None) -> Draft:
@@ -89,8 +109,8 @@ def parse_image(content: bytes, path: str | os.PathLike[str], options: AreaOptio
     FormatError
         If the image cannot be read, or there is a cell size but no resolution.
     """
-    grey, is_opaque = read_pixels(content, path)
-    is_free = np.where(is_opaque, grey, 255) >= options.threshold * 255
+    grey, alpha = read_pixels(content, path)
+    is_free = (grey if alpha is None else np.where(alpha == 255, grey, 255)) >= options.threshold * 255
     occupied = is_free if options.invert else ~is_free
     name = Path(path).stem
     if options.cell_size is None:
@@ -102,12 +122,13 @@ def parse_image(content: bytes, path: str | os.PathLike[str], options: AreaOptio
             f"{path}: an image has no measure: say how many metres a pixel is wide, resolution 0.05 for five "
             "centimetres (--resolution on the command line)"
         )
-    covering = options.covering_of(path, "an image")
+    rows, columns = occupied.shape
+    covering = options.covering_of(path, "an image", columns * options.resolution, rows * options.resolution)
     area = cover_raster(
         occupied,
         covering,
         resolution=options.resolution,
-        origin=(0.0, occupied.shape[0] * options.resolution),
+        origin=(0.0, rows * options.resolution),
         is_outside_occupied=options.unknown == "barrier",
         name=name,
         progress=progress,

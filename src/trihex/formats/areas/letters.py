@@ -1,4 +1,4 @@
-"""Letters: a small world drawn in text, `.` free, `B` a barrier, `D` a destination, small letters robots."""
+"""Letters: a small world drawn in text, `.` free, `B` or `#` a barrier, `D` a destination, small letters robots."""
 
 from __future__ import annotations
 
@@ -19,9 +19,10 @@ from trihex.formats.text import Text
 _ROBOTS = range(ord("a"), ord("z") + 1)
 _KIND_OF_LETTER = np.full(256, 255, dtype=np.uint8)
 _KIND_OF_LETTER[[*b".BD", *_ROBOTS]] = [*b".BD", *_ROBOTS]  # every known letter is a kind of its own
+_KIND_OF_LETTER[ord("#")] = ord("B")
 _SHAPE = ("name", "neighbourhood", "costs")
 _RULES = ("waiting_cost", "crossing", "corners", "destination_capacity")
-_KNOWN = ". (free), B (barrier), D (destination), a to z (robots)"
+_KNOWN = ". (free), B or # (barrier), D (destination), a to z (robots)"
 
 
 def parse_letters(

@@ -56,11 +56,20 @@ class AreaOptions(Record):
             if not isinstance(self.resolution, Real) or not 1e-9 <= self.resolution <= 1e9:
                 raise FormatError(f"resolution must be between 1e-9 and 1e9 metres, not {self.resolution!r:.80}")
 
-    def covering_of(self, path: object, kind: str) -> Covering:
-        """Return how to cover a place that is measured in metres; raise FormatError if there is no cell size."""
+    def covering_of(self, path: object, kind: str, east: float, south: float) -> Covering:
+        """Return how to cover a place of so many metres; raise FormatError if there is no cell size or too large a one.
+
+        Files in degrees or kilometres draw places smaller than a cell.
+        """
         if self.cell_size is None:
             raise FormatError(
                 f"{path}: {kind} is measured in metres: say how far apart the centres of neighbouring cells shall be, "
                 "cell_size 0.5 for half a metre (--cell-size on the command line)"
             )
-        return Covering(self.tessellation, self.cell_size, self.robot_radius)
+        covering = Covering(self.tessellation, self.cell_size, self.robot_radius)
+        if max(east, south) < covering.cell_size:
+            raise FormatError(
+                f"{path}: {kind} must be larger than a cell of {covering.cell_size:g} metres, not {east:.3g} by "
+                f"{south:.3g} metres: numbers are metres, not degrees or kilometres"
+            )
+        return covering

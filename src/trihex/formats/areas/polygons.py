@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import groupby
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,31 +22,38 @@ from trihex.record import Record
 # The Earth is 4e7 metres around.
 MOST_METRES = 1e9
 _GROUND_PIXELS = 500_000
-_PARTS = ("free", "obstacle", "destination", "robot")
+
+
+class Drawn(NamedTuple):
+    """A geometry that a file draws, and where in the file it stands, for messages."""
+
+    where: str
+    shape: Any
 
 
 @dataclass(frozen=True, eq=False)
 class Place(Record):
-    """What a file draws: lists of shapely geometries in metres, x to the east and y to the north.
+    """What a file draws: geometries in metres, x to the east and y to the north, as `checked_parts` returns them.
 
     Attributes
     ----------
     path : path
         For messages.
-    free : list of Polygon or MultiPolygon
-        All else is occupied.
-    obstacle : list of geometries
+    free : list of Drawn
+        Polygons. All else is occupied.
+    obstacle : list of Drawn
         What is occupied although it lies in `free`.
-    destination : list of geometries
+    destination : list of Drawn
         A point stands for its cell, anything else for the free cells it touches.
-    robot : list of Point or MultiPoint
+    robot : list of Drawn
+        Points.
     """
 
     path: str | os.PathLike[str]
-    free: list[Any]
-    obstacle: list[Any]
-    destination: list[Any]
-    robot: list[Any]
+    free: list[Drawn]
+    obstacle: list[Drawn]
+    destination: list[Drawn]
+    robot: list[Drawn]
 
 
 def draft_of_place(place: Place, options: AreaOptions, progress: Progress | None) -> Draft:
@@ -53,31 +62,35 @@ def draft_of_place(place: Place, options: AreaOptions, progress: Progress | None
     Raises
     ------
     FormatError
-        If nothing is free, a geometry is invalid, or a destination or robot meets no cell.
+        If nothing is free, the place is smaller than a cell, or a destination or robot meets no cell.
     """
     shapely = import_shapely()
-    place, path = _checked(place), place.path
-    free = shapely.union_all(place.free)
+    path = place.path
+    obstacles = shapely.union_all([drawn.shape for drawn in place.obstacle]) if place.obstacle else None
+    free = shapely.union_all([drawn.shape for drawn in place.free])
     if free.area == 0:
         raise FormatError(f"{path}: there must be a polygon that is free; there is none with an area")
+    west, south, east, north = free.bounds
     area = cover_polygons(
         free,
-        options.covering_of(path, "a place drawn by polygons"),
-        obstacles=shapely.union_all(place.obstacle) if place.obstacle else None,
+        options.covering_of(path, "a place drawn by polygons", east - west, north - south),
+        obstacles=obstacles,
         name=Path(path).stem,
         progress=progress,
     )
-    destinations = [_cells_touched(area, shape, path) for shape in place.destination]
-    robots = [_cells_of_points(area, shape, path, "robot") for shape in place.robot]
+    destinations = [
+        _cells_of_points(area, list(some), "destination") if is_point else _cells_touched(area, some)
+        for is_point, some in groupby(place.destination, lambda drawn: drawn.shape.geom_type == "Point")
+    ]
     return Draft(
         area,
         np.concatenate(destinations) if destinations else None,
-        np.concatenate(robots) if robots else None,
-        ground=_ground(area, free, place.obstacle),
+        _cells_of_points(area, place.robot, "robot") if place.robot else None,
+        ground=_ground(area, free, obstacles),
     )
 
 
-def _ground(area: Area, free: Any, obstacles: list[Any]) -> Ground:
+def _ground(area: Area, free: Any, obstacles: Any) -> Ground:
     """Return a raster of what is occupied: pixels whose centre is not free, or half a pixel from an obstacle."""
     import shapely
 
@@ -86,57 +99,76 @@ def _ground(area: Area, free: Any, obstacles: list[Any]) -> Ground:
     py, px = np.mgrid[0:down:square, 0:across:square] + square / 2
     x, y = area.metres.point_to_metres(px, py)
     occupied = ~shapely.contains_xy(free, x, y)
-    for obstacle in obstacles:
-        shapely.prepare(obstacle)
-        occupied |= shapely.dwithin(obstacle, shapely.points(x, y), square * area.metres.cell_size / 2)
+    if obstacles is not None:
+        shapely.prepare(obstacles)
+        occupied |= shapely.dwithin(obstacles, shapely.points(x, y), square * area.metres.cell_size / 2)
     return Ground(occupied, square)
 
 
-def _checked(place: Place) -> Place:
-    """Return the place in whole nanometres; raise FormatError if a coordinate is no number or a shape is invalid."""
+def checked_parts(where: str, shape: Any) -> list[Drawn]:
+    """Return the points, lines and polygons of a shape in whole nanometres, each apart.
+
+    So polygons of one MultiPolygon may touch and overlap as those of several features may.
+
+    Raises
+    ------
+    FormatError
+        If a coordinate is no number, or a part is invalid.
+    """
     import shapely
 
-    def checked(shape: Any) -> Any:
-        if not (np.abs(shapely.get_coordinates(shape)) <= MOST_METRES).all():  # not so for nan
-            raise FormatError(f"{place.path}: coordinates must be finite numbers of at most {MOST_METRES:g} metres")
-        # Numbers such as 1e-320 make GEOS divide by 0.
-        shape = shapely.transform(shape, lambda coordinates: np.round(coordinates, 9))
-        if not shapely.is_valid(shape):
-            raise FormatError(f"{place.path}: a {shape.geom_type} is invalid: {shapely.is_valid_reason(shape)}")
-        return shape
+    if not (np.abs(shapely.get_coordinates(shape)) <= MOST_METRES).all():  # not so for nan
+        raise FormatError(f"{where}: coordinates must be finite numbers of at most {MOST_METRES:g} metres")
+    # Numbers such as 1e-320 make GEOS divide by 0.
+    leaves = [shapely.transform(shapely.force_2d(shape), lambda coordinates: np.round(coordinates, 9))]
+    while any(leaf.geom_type.startswith(("Multi", "GeometryCollection")) for leaf in leaves):
+        leaves = list(shapely.get_parts(leaves))
+    drawn = [Drawn(f"{where}: part {i}" if len(leaves) > 1 else where, leaf) for i, leaf in enumerate(leaves)]
+    for i in np.flatnonzero(~shapely.is_valid(leaves)):
+        place, leaf = drawn[i]
+        raise FormatError(f"{place}: a {leaf.geom_type} is invalid: {shapely.is_valid_reason(leaf)}")
+    return drawn
 
-    parts = {name: [checked(shape) for shape in getattr(place, name)] for name in _PARTS}
-    return Place(place.path, **parts)
 
-
-def _cells_of_points(area: Area, points: Any, path: object, what: str) -> NDArray[np.int64]:
+def _cells_of_points(area: Area, points: list[Drawn], what: str) -> NDArray[np.int64]:
     """Return the number of the cell in which each point lies."""
     import shapely
 
-    places = shapely.get_coordinates(points)
     try:
-        return area.metres_to_cell(places[:, 0], places[:, 1])
-    except AreaError as error:
-        raise FormatError(f"{path}: a {what}: {error}") from None
+        return area.metres_to_cell(*shapely.get_coordinates([drawn.shape for drawn in points]).T)
+    except AreaError:
+        for where, shape in points:
+            try:
+                area.metres_to_cell(shape.x, shape.y)
+            except AreaError as error:
+                raise FormatError(f"{where}: a {what}: {error}") from None
+        raise
 
 
-def _cells_touched(area: Area, shape: Any, path: object) -> NDArray[np.int64]:
-    """Return the numbers of the free cells that a line or polygon touches; of any cell, where a point lies."""
+def _cells_touched(area: Area, shapes: Iterable[Drawn]) -> NDArray[np.int64]:
+    """Return the numbers of the free cells that lines or polygons touch."""
     import shapely
 
-    if shape.geom_type.endswith("Point"):
-        return _cells_of_points(area, shape, path, "destination")
-    cells = np.flatnonzero(~area.barriers.reshape(-1))
-    x, y = area.cell_to_metres(cells)
-    west, south, east, north = shape.bounds
+    free = np.flatnonzero(~area.barriers.reshape(-1))
+    x, y = area.cell_to_metres(free)
     reach = 2 * area.metres.cell_size  # no cell is wider
-    cells = cells[(x > west - reach) & (x < east + reach) & (y > south - reach) & (y < north + reach)]
-    corners = area.tessellation.polygon_of_cell(*area.cell_to_xy(cells))
-    polygons = shapely.polygons(np.stack(area.metres.point_to_metres(corners[..., 0], corners[..., 1]), axis=-1))
-    shapely.prepare(shape)
-    touched = cells[shapely.intersects(shape, polygons)]
-    if touched.size == 0:
-        raise FormatError(
-            f"{path}: a destination between ({west:g}, {south:g}) and ({east:g}, {north:g}) metres touches no free cell"
-        )
-    return np.asarray(touched)
+    found = []
+    for where, shape in shapes:
+        west, south, east, north = shape.bounds
+        near = (x > west - reach) & (x < east + reach) & (y > south - reach) & (y < north + reach)
+        corners = area.tessellation.polygon_of_cell(*area.cell_to_xy(free[near]))
+        polygons = shapely.polygons(np.stack(area.metres.point_to_metres(corners[..., 0], corners[..., 1]), axis=-1))
+        shapely.prepare(shape)
+        found.append(free[near][shapely.intersects(shape, polygons)])
+        if found[-1].size == 0:
+            hint = "none is free"
+            if free.size:
+                away = shapely.distance(shape, shapely.points(x, y))
+                nearest = int(np.argmin(away))
+                cell = area.place_of_cell(int(free[nearest]))
+                hint = f"the nearest is {cell}, its centre {away[nearest]:.3g} metres away"
+            raise FormatError(
+                f"{where}: a destination between ({west:g}, {south:g}) and ({east:g}, {north:g}) metres touches no "
+                f"free cell; {hint}"
+            )
+    return np.concatenate(found)

@@ -15,7 +15,7 @@ from trihex.areas import Ground, cover_raster
 from trihex.areas.coverage import Progress
 from trihex.errors import FormatError, check_choice
 from trihex.files import read_bytes
-from trihex.formats.areas.image import read_pixels
+from trihex.formats.areas.image import Pixels, read_pixels
 from trihex.formats.areas.options import AreaOptions
 from trihex.formats.draft import Draft
 from trihex.formats.text import Text
@@ -23,15 +23,18 @@ from trihex.formats.text import Text
 MODES = ("trinary", "scale", "raw")
 _REQUIRED = ("image", "resolution", "origin")
 _KEYS = (*_REQUIRED, "occupied_thresh", "free_thresh", "negate", "mode")
-_LINE = re.compile(r"(?P<key>[A-Za-z_]\w*)\s*:(?:\s+(?P<value>.*))?$")
+# A quoted key needs no blank after its colon, as in JSON.
+_LINE = re.compile(r"(?P<quote>[\"']?)(?P<key>[A-Za-z_]\w*)(?P=quote)\s*:(?:(?:\s+|(?<=[\"']:))(?P<value>.*))?$")
+_FLOW = re.compile(r"\"[^\"\n]*\"|'[^'\n]*'|(?:^|(?<=\s))#[^\n]*|[\[\]{},]|\s+|[^\s\[\]{},\"']+|.")
 
 
 def parse_ros(text: Text, path: str | os.PathLike[str], options: AreaOptions, progress: Progress | None) -> Draft:
     """Return the area that covers a ROS map, and the map as its ground, as nav2's map_server understands it.
 
     With p = (255 - grey) / 255, or grey / 255 if negated, a pixel is occupied if p > occupied_thresh, free if
-    p < free_thresh, and unknown otherwise. In mode scale, transparent pixels are unknown as well, and what lies between
-    the thresholds counts as unknown; in mode raw, a grey of 0 to 100 is the occupancy in per cent.
+    p < free_thresh, and unknown otherwise. In mode trinary, the opacity of an image that has such a channel counts as a
+    fourth colour. In mode scale, transparent pixels are unknown, and so is what lies between the thresholds; in mode
+    raw, a grey of 0 to 100 is the occupancy in per cent.
 
     Raises
     ------
@@ -46,11 +49,10 @@ def parse_ros(text: Text, path: str | os.PathLike[str], options: AreaOptions, pr
         raise FormatError(f"{path}: resolution must be between 1e-9 and 1e9 metres, not {resolution:g}")
     west, south, yaw = _origin(entries, path)
     image = Path(path).parent / _text(entries, "image", path)
-    grey, is_opaque = read_pixels(read_bytes(image), image)
-    size = f"{grey.shape[1] * resolution:g} by {grey.shape[0] * resolution:g} metres"
-    covering = options.covering_of(path, f"a ROS map ({size})")
-    occupied, free = _states(entries, grey, is_opaque, path)
-    height = grey.shape[0] * resolution
+    pixels = read_pixels(read_bytes(image), image)
+    width, height = pixels.grey.shape[1] * resolution, pixels.grey.shape[0] * resolution
+    covering = options.covering_of(path, f"a ROS map ({width:g} by {height:g} metres)", width, height)
+    occupied, free = _states(entries, pixels, path)
     area = cover_raster(
         occupied if options.unknown == "free" else ~free,
         covering,
@@ -66,7 +68,7 @@ def parse_ros(text: Text, path: str | os.PathLike[str], options: AreaOptions, pr
 
 
 def _states(
-    entries: dict[str, str | list[str]], grey: NDArray[np.uint8], is_opaque: NDArray[np.bool_], path: object
+    entries: dict[str, str | list[str]], pixels: Pixels, path: object
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
     """Return which pixels are occupied and which free."""
     mode = check_choice(f"{path}: mode", _text(entries, "mode", path, "trinary").lower(), MODES, FormatError)
@@ -87,20 +89,24 @@ def _states(
     is_occupied, is_free = share > over, share < under
     if mode == "raw":
         is_occupied[101:] = is_free[101:] = False
+    grey, alpha = pixels
+    if alpha is not None and mode == "trinary":
+        # As map_server does: opacity counts as a fourth colour, so that transparent white is unknown.
+        grey = np.round(0.75 * grey + 0.25 * alpha).astype(np.uint8)
     occupied, free = is_occupied[grey], is_free[grey]
-    if mode == "scale":
-        occupied, free = occupied & is_opaque, free & is_opaque
+    if alpha is not None and mode == "scale":
+        occupied, free = occupied & (alpha == 255), free & (alpha == 255)
     return occupied, free
 
 
 def parse_yaml(text: str, path: object) -> dict[str, str | list[str]]:
-    """Return the keys of a flat YAML file, with a text or a list of texts each: all that map files use.
+    """Return the keys of a flat YAML file, a line each or all in { }, with a text or a list of texts each.
 
     A YAML library reads ten times as much, and `no`, `010` and `1e3` as something else than they look.
     """
     entries: dict[str, str | list[str]] = {}
     key = ""
-    for number, line in enumerate(text.splitlines(), start=1):
+    for number, line in enumerate(_lines_of(text), start=1):
         bare = line.strip()
         if not bare or bare[0] in "#%" or bare in ("---", "..."):
             continue
@@ -128,6 +134,22 @@ def parse_yaml(text: str, path: object) -> dict[str, str | list[str]]:
             hint = f"; is it {near[0]!r}?" if near else ""
             raise FormatError(f"{path}: a ROS map must have the key {name!r}{hint}")
     return entries
+
+
+def _lines_of(text: str) -> list[str]:
+    """Return the lines of a file; of one in { }, as JSON has it, an entry each."""
+    if not re.match(r"(?:\s+|#.*\n|---\s)*\{", text):
+        return text.splitlines()
+    entries: list[list[str]] = [[]]
+    depth = 0
+    for found in _FLOW.finditer(text):
+        token = found[0]
+        depth += (token in "[{") - (token in "]}")
+        if token == "," and depth == 1:
+            entries.append([])
+        elif not (token in "{}" or token.startswith(("#", "---"))):
+            entries[-1].append(" " if token.isspace() else token)
+    return ["".join(entry) for entry in entries]
 
 
 def _scalar(value: str) -> str:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
+from dataclasses import fields
 
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Scenario, Tessellation
+from trihex.areas import Scenario, Tessellation, claimed
 from trihex.errors import FormatError
 from trihex.files import new_file
 from trihex.formats.registry import PLAN_HEADER
@@ -123,8 +124,10 @@ def plan_of_table(table: NDArray[np.int64], scenario: Scenario, path: object) ->
     jumps = np.flatnonzero(own == JUMP)
     cells = y * area.width + x
     firsts = np.flatnonzero(is_start)
+    given = {field.name: getattr(scenario, field.name) for field in fields(scenario)}
+    given |= {"robots": cells[is_start], "seed": None}
     return Plan(
-        scenario.with_robots(cells[is_start]),
+        claimed(lambda kind: kind(**given)),
         own,
         np.append(firsts - np.arange(firsts.size), own.size),
         jumps=np.stack([jumps, cells[~is_start][jumps]], axis=1),

@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from trihex.areas import Scenario
+from trihex.areas import Scenario, check_possible, claimed
 from trihex.errors import FormatError
 from trihex.files import read_bytes
 from trihex.formats.archive import Entries, pack, unpack
@@ -53,7 +53,9 @@ def read_plan_npz(path: str | os.PathLike[str]) -> Plan:
     OSError
         If the file cannot be read.
     """
-    return parse_plan_npz(read_bytes(path), path)
+    plan = parse_plan_npz(read_bytes(path), path)
+    check_possible(plan.scenario)
+    return plan
 
 
 def parse_plan_npz(
@@ -75,7 +77,7 @@ def parse_plan_npz(
     """
     arrays = unpack(content, path, _ENTRIES, VERSION, "a plan")
     plan = Plan(
-        scenario_from(arrays, path),
+        claimed(lambda kind: scenario_from(arrays, path, kind)),
         arrays["actions"],
         arrays["first_action"],
         str(arrays["planner"]),

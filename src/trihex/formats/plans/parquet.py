@@ -73,8 +73,9 @@ def write_plan_parquet(
             "time": total - total[first_row[:-1][robot]],
         }
     )
-    with new_file(path) as part:
-        parquet.write_table(table, part, compression="zstd")
+    # Arrow takes no path that is not UTF-8.
+    with new_file(path) as part, open(part, "wb") as file:
+        parquet.write_table(table, file, compression="zstd")
 
 
 def parse_plan_parquet(

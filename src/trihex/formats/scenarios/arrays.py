@@ -48,12 +48,12 @@ def scenario_arrays(scenario: Scenario) -> dict[str, Any]:
     }
 
 
-def scenario_from(arrays: dict[str, Any], path: object) -> Scenario:
-    """Return the scenario in the entries of a file."""
+def scenario_from(arrays: dict[str, Any], path: object, kind: type[Scenario] = Scenario) -> Scenario:
+    """Return the scenario in the entries of a file, or what it claims."""
     text = {name: arrays[name] for name, (kind, _) in SCENARIO_ENTRIES.items() if kind == "U"}
     seed, capacity = int(arrays["seed"]), int(arrays["destination_capacity"])
     tessellation = Tessellation(text["tessellation"], text["neighbourhood"], text["costs"])
-    return Scenario(
+    return kind(
         Area(tessellation, arrays["barriers"], text["area"], _frame(arrays["frame"], path)),
         arrays["destinations"],
         arrays["robots"],

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.areas import Area, Frame, Scenario, Tessellation, cells_from
-from trihex.errors import ScenarioError, TrihexError
+from trihex.errors import FormatError, ScenarioError, TrihexError
 from trihex.files import new_file
 from trihex.formats.areas.letters import draft_of_letters
 from trihex.formats.areas.options import AreaOptions
@@ -201,6 +201,8 @@ def _output_lines(outputs: dict[str, Any], path: Path) -> list[str]:
             lines.append(f"{name} = {value!r}")
             continue
         beside = os.path.relpath(value, path.parent)
+        if not beside.isprintable():
+            raise FormatError(f"{path}: the path of the {name} must be printable UTF-8, not {beside!a:.200}")
         if Path(beside).parts[0] != "..":
             lines.append(f"{name} = {_text(beside)}")
     return ["", "[outputs]", *lines] if lines else []

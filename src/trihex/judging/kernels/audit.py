@@ -118,7 +118,7 @@ def begin(start, deeds, robots, places, findings, clock):
             count += 1
         else:
             robots.came_from[robot] = PARKED
-            places.place[site] = robot
+            places.place[site] = robot | (places.place[site] & BARRIER)
     clock[ACTIVE] = count
 
 
