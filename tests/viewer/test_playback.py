@@ -7,7 +7,6 @@ from hypothesis import given, settings
 
 import trihex as th
 from tests.strategies import random_scenario, scenarios
-from tests.sweeps import swept
 from trihex.kernels.codes import JUMP, WAIT
 from trihex.pictures.ways import bends_of
 from trihex.planners import make_plan
@@ -75,7 +74,8 @@ def test_the_page_shows_robots_where_the_plan_has_them(open_viewer):
     rng = np.random.default_rng(3)
     jumper = th.Scenario(th.Area("hexagonal", np.zeros((4, 9))), [(8, 3)], [(0, 0), (4, 0)])
     plans = [Plan(jumper, [3, WAIT, JUMP, 1, JUMP], [0, 4, 5], jumps=[[2, 34], [4, 35]])]
-    plans += [make_plan(random_scenario(seed, sides=(6, 14)), "greedy") for seed in range(swept(12, 4))]
+    # Fewer plans may pass no corner.
+    plans += [make_plan(random_scenario(seed, sides=(6, 14)), "greedy") for seed in range(12)]
     bent = 0
     for plan in plans:
         area, cells = plan.scenario.area, list(plan.cells_by_step())

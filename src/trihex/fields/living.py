@@ -82,7 +82,7 @@ class LivingField:
     >>> field.distance.tolist()
     [[24, 14, 10], [20, 10, 0]]
     >>> field.next_cell([(0, 0), (2, 1)]).tolist()
-    [4, 5]
+    [1, 5]
     """
 
     def __init__(

@@ -106,6 +106,7 @@ def draw_comparison(rows: Sequence[Row] | Any, ax: Any = None, *, title: str | N
 
 
 def _checked(rows: Sequence[Row]) -> Sequence[Row]:
+    check_many("rows", rows, Mapping, "a comparison, or a list of rows such as read_results returns")
     for number, row in enumerate(rows):
         if not isinstance(row, Mapping):
             raise FormatError(f"rows must be mappings, or a comparison; row {number} is {row!r:.80}")

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.areas import Scenario
-from trihex.errors import FormatError, check_whole
+from trihex.errors import FormatError, check_many, check_type, check_whole
 from trihex.fields import DScheme
 from trihex.kernels.codes import NOT_REACHED
 from trihex.pictures.axes import draw_ramps, handles_of, matplotlib
@@ -70,6 +70,8 @@ def draw_generations(
     >>> [ax.get_title() for ax in axes][-2:]
     ['Generation 2', 'Generation 3: the N-scheme']
     """
+    check_type("scenario", scenario, Scenario)
+    check_many("generations", generations, dict, "arrays, as distance_generations yields them")
     check_whole("columns", columns, 1, 100, FormatError)
     states = list(generations)
     shown = _shown(len(states), numbers)

@@ -51,6 +51,7 @@ def draw_generation(
     legend: bool = True,
 ) -> Any:
     """Draw a generation of the distance rule, as `picture_of_generation` does; return the Axes."""
+    check_type("scenario", scenario, Scenario)
 
     def make(width: int) -> Picture:
         return picture_of_generation(scenario, states, number, far=far, width=width, title=title)
