@@ -17,6 +17,9 @@ WISHES = {
     "house.geojson": METRES,
     "house.wkt": METRES,
     "house.yaml": METRES,
+    "style.yaml": METRES,
+    "parts.geojson": METRES,
+    "srid.wkt": METRES,
     "house.png": {"cell_size": 0.5, "resolution": 0.1, "invert": True, "threshold": 0.3},
 }
 OTHERS = {"request.bundle", "events.csv", "events.toml", "run.npz", "study.toml"}  # not for the viewer
@@ -55,7 +58,7 @@ def test_there_is_a_file_of_every_format_that_may_be_opened():
 @pytest.mark.parametrize("in_folder", [True, False])
 @pytest.mark.parametrize("name", NAMES)
 def test_every_format_is_opened(folder, name, in_folder):
-    if not in_folder and name in ("house.yaml", "place.toml"):
+    if not in_folder and name in ("house.yaml", "style.yaml", "place.toml"):
         return  # they name other files, which a page cannot send; see test_server
     desk = Desk(Folder(folder))
     document = document_of(th.formats.draft.Draft(yard(), np.array([7, 24])))

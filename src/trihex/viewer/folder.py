@@ -19,7 +19,7 @@ SUFFIXES = tuple(
         (
             *(suffix for form in FORMATS.values() for suffix in form.suffixes),
             *(suffix for what in ("an area", "a scenario", "a plan") for suffix in WRITERS[what]),
-            *(".gif", ".jpg", ".jpeg"),
+            *(".gif", ".jpg", ".jpeg", ".pfm"),
         )
     )
 )
