@@ -35,6 +35,7 @@ from trihex.kernels.signatures import HELPER, IN_I32, OUT_I64, kernel
 # Entries of `clock`: the step under way, and how many robots act.
 STEP, ACTIVE = 0, 1
 AHEAD = 16  # robots between asking for a robot's places and using them
+_U = np.uint64
 
 
 @HELPER
@@ -57,10 +58,10 @@ def _judge_way(deed, law, robots, places, findings):
 def _judge_deed(robot, step, law, deeds, robots, places, findings):
     """Let a robot act, and judge what it does; return whether it goes on to the next step."""
     here = np.int64(robots.site[robot])
-    goes_on = deeds.first[robot] + step < deeds.first[robot + 1]
+    goes_on = deeds.first[_U(robot)] + step < deeds.first[_U(robot + 1)]
     deed = deed_of(robot, step, here, places.place, law, deeds)
-    robots.came_from[robot] = here
-    robots.passed[robot] = deed.vertex
+    robots.came_from[_U(robot)] = here
+    robots.passed[_U(robot)] = deed.vertex
     if deed.action == WAIT and deed.onto == robot and goes_on:  # most of all, in crowds
         return True
     if deed.action == JUMP:
@@ -86,10 +87,10 @@ def _judge_step(step, acting, law, deeds, robots, places, findings):
     """Let all that act do so; return how many go on, and how many have ended."""
     kept = ended = 0
     for j in range(acting):
-        robot = robots.active[min(j + 2 * AHEAD, acting - 1)]
-        prefetch(deeds.action, deeds.first[robot] + step - 1)
-        prefetch_deed(robots.active[min(j + AHEAD, acting - 1)], step, robots, places, law, deeds)
-        robot = np.int64(robots.active[j])
+        robot = robots.active[_U(min(j + 2 * AHEAD, acting - 1))]
+        prefetch(deeds.action, deeds.first[_U(robot)] + step - 1)
+        prefetch_deed(robots.active[_U(min(j + AHEAD, acting - 1))], step, robots, places, law, deeds)
+        robot = np.int64(robots.active[_U(j)])
         if _judge_deed(robot, step, law, deeds, robots, places, findings):
             robots.active[kept] = robot
             kept += 1

@@ -10,6 +10,9 @@ from trihex.kernels.signatures import APART, HELPER, IN_I32, IN_I64, IN_U8, decl
 
 NO_VERTEX = np.int64(-1)
 
+# Indices that are never counted from the end: numba would ask each whether it is negative, which takes a twelfth.
+_U = np.uint64
+
 
 class Deeds(NamedTuple):
     """Actions of a plan, one robot after the other."""
@@ -50,24 +53,24 @@ def _end_of_jump(i, deeds):
 @HELPER
 def deed_of(robot, step, here, place, law, deeds):
     """Return what a robot that stands at `here` does in this step."""
-    i = deeds.first[robot] + step - 1
-    action = np.int64(deeds.action[i])
+    i = deeds.first[_U(robot)] + step - 1
+    action = np.int64(deeds.action[_U(i)])
     target, vertex = here, NO_VERTEX
     if action == JUMP:
         target = _end_of_jump(i, deeds)
     elif action != WAIT:
-        target = here + law.offset[here & 1, action]
+        target = here + law.offset[_U(here & 1), _U(action)]
         if action >= law.edge_count:
-            vertex = here + law.vertex[here & 1, action]
-    return Deed(robot, step, action, here, target, vertex, np.int64(place[target]))
+            vertex = here + law.vertex[_U(here & 1), _U(action)]
+    return Deed(robot, step, action, here, target, vertex, np.int64(place[_U(target)]))
 
 
 @HELPER
 def prefetch_deed(robot, step, robots, places, law, deeds):
     """Ask for the places that a robot will need in this step."""
-    action = deeds.action[deeds.first[robot] + step - 1]
+    action = deeds.action[_U(deeds.first[_U(robot)] + step - 1)]
     if action < JUMP:
-        here = robots.site[robot]
-        prefetch(places.place, here + law.offset[here & 1, action])
+        here = robots.site[_U(robot)]
+        prefetch(places.place, here + law.offset[_U(here & 1), _U(action)])
         if law.forbids_crossing and action >= law.edge_count:
-            prefetch(places.vertex_holder, here + law.vertex[here & 1, action])
+            prefetch(places.vertex_holder, here + law.vertex[_U(here & 1), _U(action)])

@@ -37,6 +37,7 @@ class Places(NamedTuple):
     vertex_holder: OUT_I32  # who passed each lattice vertex last, if crossing is forbidden
 
 
+_U = np.uint64
 JUDGED_ROBOTS, PLACES = declared(JudgedRobots), declared(Places)
 
 
@@ -62,8 +63,8 @@ def judge_crossing(deed, robots, places, findings):
 @HELPER
 def judge_exchange(deed, robots, places, findings):
     """Judge whether the robot that now stands where this one came from has come from where this one goes."""
-    other = robot_in(places.place[deed.here])
-    if other < deed.robot and robots.site[other] == deed.here and robots.came_from[other] == deed.target:
+    other = robot_in(places.place[_U(deed.here)])
+    if other < deed.robot and robots.site[_U(other)] == deed.here and robots.came_from[_U(other)] == deed.target:
         note(findings, deed.step, EXCHANGE, (other, deed.robot), (deed.target, deed.here, NONE, NONE))
 
 
@@ -85,13 +86,13 @@ def stand(deed, robots, places, findings):
     """Let a robot come to its cell, or stay, and judge whether another is there."""
     robot = deed.robot
     other = robot_in(deed.onto)
-    robots.site[robot] = deed.target
-    is_there = other != robot and robots.site[other] == deed.target
+    robots.site[_U(robot)] = deed.target
+    is_there = other != robot and robots.site[_U(other)] == deed.target
     if is_there and (other < robot or robots.came_from[other] == PARKED):
         both = min(other, robot), max(other, robot)
         note(findings, deed.step, CELL, both, (deed.target, NONE, NONE, NONE))
     else:
-        places.place[deed.target] = robot | (deed.onto & BARRIER)
+        places.place[_U(deed.target)] = robot | (deed.onto & BARRIER)
 
 
 @HELPER
