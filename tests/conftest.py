@@ -3,12 +3,9 @@
 A busy machine is no fault.
 """
 
-from itertools import product
-
 from hypothesis import HealthCheck, settings
 
-from trihex.areas import COSTS, NEIGHBOURHOODS, TESSELLATIONS, Tessellation
-from trihex.fields import field_kernels
+from trihex.fields import every_field_kernels
 from trihex.kernels.needs import KERNELS_OF
 from trihex.kernels.preparing import prepare
 
@@ -19,5 +16,4 @@ settings.load_profile("any machine")
 def pytest_configure(config):
     """Compile what the disk lacks side by side, in the process that starts the workers; they find it on disk."""
     if not hasattr(config, "workerinput"):
-        shapes = product(TESSELLATIONS, NEIGHBOURHOODS, COSTS, ("allow", "no-cut"))
-        prepare(*KERNELS_OF, *{field_kernels(Tessellation(*shape), corners) for *shape, corners in shapes})
+        prepare(*KERNELS_OF, *every_field_kernels())

@@ -1,6 +1,7 @@
 """Kernels are compiled before the work begins, side by side, once; and what is prepared is what the work takes."""
 
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -9,7 +10,9 @@ import pytest
 
 from tests.kernels.test_sources import copy_of_package
 from tests.sweeps import swept
+from trihex.fields import every_field_kernels
 from trihex.kernels import preparing
+from trihex.kernels.marks import is_marked
 from trihex.kernels.needs import KERNELS_OF, Kernels, kernels_of
 from trihex.planners import PLANNERS
 
@@ -103,6 +106,21 @@ before = kernels()
 print(sorted(kernels() - before))
 """
     assert run(code, Path(preparing.__file__).parents[2]) == ["[]"]
+
+
+def test_every_module_of_kernels_can_be_compiled_beforehand():
+    """All that hold kernels are named, but those of the shapes of fields, which are made by their shape."""
+    files = preparing.file_of("trihex").parent.glob("trihex/*/kernels/*.py")
+    holding = {path.stem for path in files if re.search(r"^@(kernel|njit)", path.read_text(), re.MULTILINE)}
+    named = {kernels.module.rpartition(".")[2] for kernels in kernels_of(KERNELS_OF)}
+    assert len(holding) > 30 and holding <= named
+    assert {kernels.module.rpartition(".")[2] for kernels in every_field_kernels()} == {"buckets", "queue"}
+
+
+def test_what_was_not_compiled_is_not_marked():
+    codes = Kernels("trihex.kernels.codes")
+    preparing._compile([codes], lambda done, total: None)
+    assert not is_marked(codes)
 
 
 def test_every_use_names_kernels_that_there_are():

@@ -54,12 +54,13 @@ def command(
     Exit status 1: some robots cannot arrive, or a plan is unsafe.
     """
     from trihex.formats import write_values
+    from trihex.planners import planner_from
     from trihex.studies import make_comparison
 
     check_outputs((out, (".csv",), "a table"), (picture, (".png", ".svg", ".pdf"), "a chart"))
-    scenarios = _scenarios(
-        area, tessellations or ((options["tessellation"],) if options["tessellation"] else ()), options
-    )
+    names = tessellations or ((options["tessellation"],) if options["tessellation"] else ())
+    uses = (*(planner_from(label)[0] for label in planners or ("greedy", "fcost")), "audit", "bound")
+    scenarios = _scenarios(area, names, uses, options)
     with bar("planning", "plans") as progress:
         comparison = make_comparison(scenarios, planners or _default_planners(scenarios), progress=progress)
     rows = comparison.rows()
@@ -78,7 +79,7 @@ def _default_planners(scenarios: list[Scenario]) -> tuple[str, ...]:
     return ("greedy", "fcost", "optimal") if is_small else ("greedy", "fcost")
 
 
-def _scenarios(path: Path, names: tuple[str, ...], options: dict[str, Any]) -> list[Scenario]:
+def _scenarios(path: Path, names: tuple[str, ...], uses: tuple[str, ...], options: dict[str, Any]) -> list[Scenario]:
     """Return the scenario on each of the tessellations, or on all that fit if none is named.
 
     Barriers of cells are read as cells of another shape; a place in metres is covered anew by each.
@@ -89,13 +90,13 @@ def _scenarios(path: Path, names: tuple[str, ...], options: dict[str, Any]) -> l
     from trihex.studies import on_tessellations
 
     if options["cell_size"] is None or FORMATS[format_of(read_bytes(path), path)].is_of_letters:
-        scenario = complete(read_described(path, options))
+        scenario = complete(read_described(path, options), *uses)
         own = () if scenario.area.frame is None else (scenario.area.tessellation.name,)
         return on_tessellations(scenario, names or own or TESSELLATIONS)
     scenarios = []
     for name in names or TESSELLATIONS:
         try:
-            scenarios.append(complete(read_described(path, {**options, "tessellation": name})))
+            scenarios.append(complete(read_described(path, {**options, "tessellation": name}), *uses))
         except (AreaError, ScenarioError) as error:
             if names:
                 raise

@@ -199,10 +199,11 @@ def complete(draft: Draft, *uses: str, needs_robots: bool = True) -> Scenario:
         raise wrong_use("there is no destination: add --destination X,Y")
     if needs_robots and draft.robots is None and draft.random_count is None:
         raise wrong_use("there are no robots: add --robots N or --starts FILE")
-    replace(draft, random_count=None).complete()
-    if uses and (draft.random_count or 0) <= draft.area.free_count:  # or robots cannot be drawn: that is told at once
-        prepare(*uses, field_kernels(draft.area.tessellation, draft.corners or "allow"))
-    return draft.complete()
+    known = draft if draft.random_count is None else replace(draft, random_count=None)
+    scenario = known.complete()
+    if uses and (draft.random_count or 0) <= draft.area.free_count:  # or they cannot be drawn, which is told at once
+        prepare(*uses, field_kernels(draft.area.tessellation, scenario.corners))
+    return scenario if known is draft else draft.complete()
 
 
 def read_judged(

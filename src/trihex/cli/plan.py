@@ -64,6 +64,8 @@ def command(
 
     Exit status 1: some robots cannot arrive. The others are planned and all outputs are written.
     """
+    from trihex.planners import check_planner_options
+
     outputs: dict[str, Any] = {name: value for name, value in named._asdict().items() if value is not None}
     _check_outputs(outputs, write_scenario)
     begin = perf_counter()
@@ -73,7 +75,7 @@ def command(
     _check_outputs(outputs, write_scenario)
     planner = planner or draft.planner or "fcost"
     planner_options = {**(draft.planner_options if planner == draft.planner else {}), **_parsed(planner_option)}
-    _check_options(planner, planner_options)
+    check_planner_options(planner, planner_options)
     scenario = complete(draft, *_uses(planner, outputs))
     if "waypoints" in outputs and scenario.area.frame is None:
         raise wrong_use("--waypoints are in metres: add --cell-size")
@@ -170,17 +172,6 @@ def _parsed(planner_option: tuple[str, ...]) -> dict[str, Any]:
         except ValueError:
             values[name.strip()] = value
     return values
-
-
-def _check_options(planner: str, planner_options: dict[str, Any]) -> None:
-    from trihex.errors import PlanError, check_choice
-    from trihex.planners import options_of
-
-    known = options_of(planner)
-    for name in planner_options:
-        if not known:
-            raise PlanError(f"planner {planner!r} has no options, so not {name!r}")
-        check_choice(f"option of planner {planner!r}", name, known, PlanError)
 
 
 def _told(report: Any, summary: Path | None) -> int:

@@ -15,22 +15,15 @@ def command(planner: str | None) -> None:
     It is kept in the folder of the package, or, where that cannot be written, in that of the user's cache;
     NUMBA_CACHE_DIR names another, which may be shared by machines of one kind.
     """
-    from itertools import product
-
-    from trihex.areas import COSTS, NEIGHBOURHOODS, TESSELLATIONS, Tessellation
     from trihex.errors import TrihexError
-    from trihex.fields import field_kernels
+    from trihex.fields import every_field_kernels
     from trihex.kernels.marks import can_keep, is_marked
     from trihex.kernels.needs import KERNELS_OF, kernels_of
     from trihex.kernels.preparing import prepare
 
     if not can_keep():
         raise TrihexError("there is no folder in which compiled kernels can be kept: set NUMBA_CACHE_DIR to one")
-    shapes = {
-        field_kernels(Tessellation(name, neighbourhood, costs), corners)
-        for name, neighbourhood, costs, corners in product(TESSELLATIONS, NEIGHBOURHOODS, COSTS, ("allow", "no-cut"))
-    }
-    uses = (*((planner, "audit", "bound") if planner else KERNELS_OF), *sorted(shapes, key=str))
+    uses = (*((planner, "audit", "bound") if planner else KERNELS_OF), *every_field_kernels())
     missing = sum(not is_marked(kernels) for kernels in kernels_of(uses))
     prepare(*uses)
     click.echo(f"{len(kernels_of(uses))} parts are ready, {missing} of them compiled now")

@@ -19,6 +19,7 @@ from .schemes import (
     make_n_scheme as make_n_scheme,
 )
 from .settling import (
+    every_field_kernels as every_field_kernels,
     field_kernels as field_kernels,
 )
 from .steps import (

@@ -5,16 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Layout, Scenario
-from trihex.fields.settling import are_moves_masked, settle
+from trihex.areas import Layout
+from trihex.fields.settling import settle
 from trihex.kernels.codes import NOT_REACHED
 
 BLOCK = 1 << 24  # sites a kernel looks at in one call, even; Ctrl-C works in between
-
-
-def needs_moves(scenario: Scenario) -> bool:
-    """Tell whether moves depend on more than barriers: corner rules concern vertex moves alone."""
-    return are_moves_masked(scenario.area.tessellation, scenario.corners)
 
 
 def fill_distances(

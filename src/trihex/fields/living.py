@@ -10,7 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 from trihex.areas import Scenario, World, cells_from, numbers_from
 from trihex.errors import ScenarioError, check_type
 from trihex.fields import ways
-from trihex.fields.fresh import fill_directions, fill_distances, make_directions, needs_moves
+from trihex.fields.fresh import fill_directions, fill_distances, make_directions
+from trihex.fields.settling import needs_moves
 from trihex.fields.wave import Wave
 from trihex.kernels.codes import NOT_REACHED
 from trihex.record import in_one_line
@@ -96,7 +97,7 @@ class LivingField:
         self.area, self.layout = scenario.area, scenario.area.layout
         self.moves = scenario.moves.copy()
         self.world = World(scenario)
-        self._needs_moves = needs_moves(scenario)
+        self._needs_moves = needs_moves(self.area.tessellation, scenario.corners)
         if distance_of_site is None:
             self.distance_of_site = np.empty(self.layout.size, dtype=np.int32)
             self._fill_distances()

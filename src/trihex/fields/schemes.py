@@ -13,9 +13,9 @@ from numpy.typing import ArrayLike, NDArray
 from trihex.areas import Scenario, cells_from, numbers_from
 from trihex.errors import ScenarioError, check_type
 from trihex.fields import ways
-from trihex.fields.fresh import BLOCK, make_directions, needs_moves
+from trihex.fields.fresh import BLOCK, make_directions
 from trihex.fields.living import LivingField
-from trihex.fields.settling import settle
+from trihex.fields.settling import needs_moves, settle
 from trihex.kernels.codes import NOT_REACHED
 from trihex.record import Record, counted, read_only
 
@@ -276,9 +276,8 @@ def _settle(
             progress(done, area.free_count)
         return robots_only and waiting.size == 0
 
-    return settle(
-        distance, layout, scenario.moves if needs_moves(scenario) else None, sites, np.zeros_like(sites), look
-    )
+    moves = scenario.moves if needs_moves(area.tessellation, scenario.corners) else None
+    return settle(distance, layout, moves, sites, np.zeros_like(sites), look)
 
 
 def make_d_scheme(n_scheme: NScheme) -> DScheme:

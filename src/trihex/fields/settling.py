@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from functools import cache
+from itertools import product
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Layout, Tessellation
+from trihex.areas import COSTS, NEIGHBOURHOODS, TESSELLATIONS, Layout, Tessellation
 from trihex.errors import ScenarioError
 from trihex.fields.front import FrontTable, make_front_table
 from trihex.kernels.codes import NOT_REACHED
@@ -89,16 +91,28 @@ def settle(
         budget = _BUDGET
 
 
+def needs_moves(tessellation: Tessellation, corners: str) -> bool:
+    """Tell whether moves depend on more than barriers: corner rules concern vertex moves alone."""
+    return corners != "allow" and tessellation.edge_count < tessellation.direction_count
+
+
 def field_kernels(tessellation: Tessellation, corners: str = "allow") -> Kernels:
     """Return which kernel settles fields on a tessellation under a corner rule; each shape of moves has its own."""
-    is_masked = are_moves_masked(tessellation, corners)
-    slots = make_front_table(tessellation.layout(1, 1), not is_masked).slots
-    return Kernels("trihex.fields.kernels.buckets", "make_settle", json.dumps([slots, is_masked]))
+    is_masked = needs_moves(tessellation, corners)
+    return _kernels_of_shape(tessellation.name, tessellation.neighbourhood, tessellation.costs, is_masked, "buckets")
 
 
-def are_moves_masked(tessellation: Tessellation, corners: str) -> bool:
-    """Tell whether a field must know the open moves: without corner rules or vertex moves, barriers tell all."""
-    return corners != "allow" and tessellation.edge_count < tessellation.direction_count
+def every_field_kernels() -> list[Kernels]:
+    """Return the kernels of all shapes of moves, those that settle by buckets and those that spread by a queue."""
+    shapes = product(TESSELLATIONS, NEIGHBOURHOODS, COSTS, (False, True), ("buckets", "queue"))
+    return list(dict.fromkeys(_kernels_of_shape(*shape) for shape in shapes))
+
+
+@cache
+def _kernels_of_shape(name: str, neighbourhood: str, costs: str, is_masked: bool, way: str) -> Kernels:
+    slots = make_front_table(Tessellation(name, neighbourhood, costs).layout(1, 1), not is_masked).slots
+    maker = {"buckets": "make_settle", "queue": "make_spread"}[way]
+    return Kernels(f"trihex.fields.kernels.{way}", maker, json.dumps([slots, is_masked]))
 
 
 class _Steps(NamedTuple):

@@ -18,8 +18,8 @@ _OPTIMUM = ("fields.steps", "optimum.paths", "optimum.single", "optimum.levels",
 _BOUND = ("areas.moves", "fields.steps", "bounds.cuts", "bounds.gates", "bounds.meetings", "bounds.serving")
 _EXECUTION = (*_REPAIR, "running.stepping", "running.lines")
 
-#: What each use needs, by names of modules: "fields.front" is ``trihex.fields.kernels.front``. What is needed seldom is
-#: not here; it is compiled when it is imported.
+#: What each use needs, by names of modules: "fields.front" is ``trihex.fields.kernels.front``. Every module that holds
+#: kernels is here, so that all can be compiled beforehand; shapes of fields have kernels of their own, `field_kernels`.
 KERNELS_OF: dict[str, tuple[str, ...]] = {
     "n_scheme": _FIELD,
     "d_scheme": _DIRECTIONS,
@@ -35,6 +35,10 @@ KERNELS_OF: dict[str, tuple[str, ...]] = {
     "picture": ("pictures.raster", "plans.replay"),
     "table": ("formats.table_text",),
     "archive": ("formats.escape",),
+    "area": ("areas.caves", "areas.mazes", "areas.coverage", "areas.regions"),
+    "generations": ("fields.generations",),
+    "page": ("plans.playback",),
+    "reach": ("judging.reach",),
 }
 
 

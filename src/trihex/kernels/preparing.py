@@ -42,7 +42,7 @@ def prepare(*uses: str | Kernels) -> None:
         return
     new = [kernels for kernels in kernels_of(uses) if kernels not in _loaded]
     missing = [kernels for kernels in new if not is_marked(kernels)]
-    if len(missing) > 1 and sys.executable and can_keep():
+    if len(missing) > 1 and _can_start_workers() and can_keep():
         begin = perf_counter()
         _LOG.info("compiling kernels, once: %d parts", len(missing))
         missing.sort(key=_effort, reverse=True)
@@ -51,6 +51,12 @@ def prepare(*uses: str | Kernels) -> None:
     for kernels in new:
         kernels.load()
     _loaded.update(uses, new)
+
+
+def _can_start_workers() -> bool:
+    """Tell whether this is an interpreter that compiles: inside another program, `sys.executable` may be that one."""
+    name = Path(sys.executable or "").name.lower()
+    return name.startswith(("python", "pypy")) and os.environ.get("NUMBA_DISABLE_JIT", "0") in ("", "0")
 
 
 def _effort(kernels: Kernels) -> int:

@@ -17,7 +17,8 @@ def main() -> None:
         kernels = Kernels(*json.loads(line))
         try:
             files = [getattr(made._cache, "_cache_file", None) for made in kernels.load()]
-            mark(kernels, [file._index_path for file in files if file is not None])
+            if kept := [file._index_path for file in files if file is not None]:
+                mark(kernels, kept)
         except Exception as error:
             print(f"{type(error).__name__}: {error}".replace("\n", " "), flush=True)
         else:

@@ -4,6 +4,7 @@ from .naming import (
 from .registry import (
     PLANNERS as PLANNERS,
     RECORDS as RECORDS,
+    check_planner_options as check_planner_options,
     make_plan as make_plan,
     options_of as options_of,
     planner_named as planner_named,

@@ -54,7 +54,8 @@ def make_lanes(n_scheme: NScheme, *, all_there_are: bool = False, most_visits: i
 
     The farthest robot gets the cheapest way to a destination. Each next one gets a lane if there is any, if need be by
     leading earlier lanes elsewhere, and so that all together cost least: a flow of least cost in which each cell
-    carries one (Ford and Fulkerson 1962). So behind any choke there are as many lanes as robots can pass it in a step.
+    carries one (Ford and Fulkerson 1962). So behind any narrow place there are as many lanes as robots can pass it in a
+    step.
     A lane is left out where its detour costs more than the wait that it saves: if robots arrived one behind the other
     in the lanes so far, the nearest first, this one would be there sooner.
 

@@ -91,7 +91,7 @@ def _place_of(option: str, known: Iterable[str]) -> str:
     if others:
         names = " and ".join(map(repr, others))
         return f"planner {names} has it" if len(others) == 1 else f"planners {names} have it"
-    near = get_close_matches(option.lower(), _PARTS, n=1)
+    near = get_close_matches(option.lower(), _PARTS, n=1, cutoff=0.9)  # speed is no seed
     if near:
         return f"it is a part of the scenario, Scenario({_PARTS[near[0]]}=...)"
     near = get_close_matches(option.lower(), ("n_scheme", "progress", "record", "planner"), n=1)
