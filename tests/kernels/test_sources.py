@@ -1,5 +1,6 @@
 """What kernels share: sources from which they are compiled, where they are kept, how they are prepared."""
 
+import ast
 import os
 import shutil
 import subprocess
@@ -7,7 +8,7 @@ import sys
 from pathlib import Path
 
 import trihex
-from trihex.kernels.sources import stamp_of
+from trihex.kernels.sources import sources_of, stamp_of
 
 SRC = Path(trihex.__file__).parent
 
@@ -41,3 +42,22 @@ def test_a_stamp_changes_with_helpers_of_other_files(tmp_path):
 def test_every_kernel_has_a_stamp():
     files = [path for path in SRC.rglob("*/kernels/*.py") if path.name != "__init__.py" and path.parent.parent != SRC]
     assert len({stamp_of(str(path)) for path in files}) == len(files) > 20
+
+
+def imported_by(path, found):
+    """Gather what a file imports of kernels, and what that imports, as the parser of Python sees it."""
+    found.add(path)
+    for node in ast.parse(path.read_text()).body:
+        if isinstance(node, ast.ImportFrom) and "kernels" in (node.module or ""):
+            base = SRC.joinpath(*node.module.split(".")[1:])
+            for file in (base.with_suffix(".py"), *(base / f"{alias.name}.py" for alias in node.names)):
+                if file.is_file() and file not in found:
+                    imported_by(file, found)
+    return found
+
+
+def test_sources_are_all_that_is_imported():
+    files = [path for path in SRC.rglob("*/kernels/*.py") if path.name != "__init__.py"]
+    for path in files:
+        assert set(sources_of(path)) == imported_by(path, set()), path
+    assert max(len(sources_of(path)) for path in files) > 8

@@ -94,8 +94,10 @@ def command(
 
 def _uses(planner: str, outputs: dict[str, Any]) -> list[str]:
     """Return what kernels are for."""
-    judged = ["audit"] if planner == "optimal" else ["audit", "bound"]
-    return [planner, *judged, *(use for name, use in (("plan", "table"), ("picture", "picture")) if name in outputs)]
+    uses = [planner, "audit"] if planner == "optimal" else [planner, "audit", "bound"]
+    if Path(outputs.get("plan", "")).suffix.lower() == ".csv":
+        uses.append("table")
+    return [*uses, "picture"] if "picture" in outputs else uses
 
 
 def _check_outputs(outputs: dict[str, Any], write_scenario: Path | None) -> None:

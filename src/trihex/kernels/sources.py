@@ -6,7 +6,7 @@ from hashlib import sha256
 from pathlib import Path
 
 _PACKAGE = Path(__file__).parents[1]
-_IMPORT = re.compile(r"^from trihex\.([\w.]*kernels[\w.]*) import ([^#(]*|\([^)]*\))", re.MULTILINE)
+_IMPORT = re.compile(r"^from trihex\.([\w.]*kernels[\w.]*) import ([^#(\n]*|\([^)]*\))", re.MULTILINE)
 
 
 def file_of(module: str) -> Path:
@@ -21,10 +21,16 @@ def stamp_of(path: str) -> bytes:
     Numba looks at the file of a kernel alone. Helpers of other files are compiled into it: when one of them changes,
     with a new version of trihex or while it is worked on, the kernel on disk is out of date all the same.
     """
+    sources = sources_of(Path(path))
+    names = sorted(sources, key=lambda one: one.as_posix())
+    return sha256(b"".join(sha256(sources[name]).digest() for name in names)).digest()
+
+
+def sources_of(path: Path) -> dict[Path, bytes]:
+    """Return the files that a file of kernels is compiled from, itself among them, and what they hold."""
     found: dict[Path, bytes] = {}
-    _gather(Path(path), found)
-    names = sorted(found, key=lambda one: one.as_posix())
-    return sha256(b"".join(sha256(found[name]).digest() for name in names)).digest()
+    _gather(path, found)
+    return found
 
 
 def _gather(path: Path, found: dict[Path, bytes]) -> None:

@@ -1,11 +1,11 @@
 """Numbers of steps, and queues at the destinations."""
 
-from numba import njit, types
+from numba import types
 
-from trihex.kernels.signatures import IN_I32, IN_U16, OUT_BOOL, OUT_I32, OUT_I64, TABLE_I32
+from trihex.kernels.signatures import IN_I32, IN_U16, OUT_BOOL, OUT_I32, OUT_I64, TABLE_I32, kernel
 
 
-@njit(types.int64(OUT_I64, types.int64), cache=True, nogil=True)
+@kernel(types.int64(OUT_I64, types.int64))
 def queue_up(slots, width):
     """Delay sorted `slots` until each number occurs at most `width` times; return their sum."""
     total = 0
@@ -16,7 +16,7 @@ def queue_up(slots, width):
     return total
 
 
-@njit(types.void(IN_U16, TABLE_I32, IN_I32, OUT_I32, OUT_I32, OUT_BOOL, OUT_I64, types.int64), cache=True, nogil=True)
+@kernel(types.void(IN_U16, TABLE_I32, IN_I32, OUT_I32, OUT_I32, OUT_BOOL, OUT_I64, types.int64))
 def spread_costs(moves, offset, cost, least, queue, is_queued, state, budget):
     """Go on with the least sums of `cost` (0 is allowed) by correcting labels, at most `budget` sites.
 
