@@ -65,7 +65,7 @@ class Covering(Record):
         frame = Frame(self.cell_size, robot_radius=self.robot_radius)
         self._set("cell_size", frame.cell_size)
         self._set("robot_radius", frame.robot_radius)
-        check_cell_size(self.tessellation, frame)
+        check_cell_size(self.tessellation, frame, "forbid")  # a scenario may still ask for more
 
     def frame_at(self, origin: tuple[float, float], yaw: float = 0.0) -> Frame:
         """Return the frame of an area whose north-west corner lies at `origin`."""
