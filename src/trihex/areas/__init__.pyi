@@ -7,6 +7,9 @@ from .claim import (
     check_possible as check_possible,
     claimed as claimed,
 )
+from .clearance import (
+    usual_following as usual_following,
+)
 from .coverage import (
     Covering as Covering,
     cover_polygons as cover_polygons,
