@@ -41,7 +41,11 @@ def least_arrivals(
     slots = _make_slots(network, gates.width, demand.sites.size)
     search, state = _make_search(network, gates.width), np.zeros(6, dtype=np.int64)
     state[kernels.STEP] = -1
-    while state[kernels.SERVED] < gates.robots and state[kernels.STEP] < gates.horizon and state[kernels.LOOKS] < most_looks:
+    while (
+        state[kernels.SERVED] < gates.robots
+        and state[kernels.STEP] < gates.horizon
+        and state[kernels.LOOKS] < most_looks
+    ):
         budget = min(_BUDGET, most_looks - int(state[kernels.LOOKS]))
         kernels.serve_robots(gates, slots, search, state, budget)
         if progress is not None:
@@ -68,7 +72,9 @@ def _gates_of(demand: Demand, network: GateNetwork, horizon: int, shift: int) ->
 
     # Where all windows are steps it makes no difference when they begin.
     ticks = _ticks_from_gates(network) * (not demand.scenario.is_stepwise)
-    to, robot_to = (np.repeat(np.arange(ticks.size), np.diff(first)) for first in (network.first_arc, network.first_robot))
+    to, robot_to = (
+        np.repeat(np.arange(ticks.size), np.diff(first)) for first in (network.first_arc, network.first_robot)
+    )
     gates: Gates = given(
         Gates,
         gap=network.gap,
