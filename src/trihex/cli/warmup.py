@@ -23,7 +23,7 @@ def command(planner: str | None) -> None:
 
     if not can_keep():
         raise TrihexError("there is no folder in which compiled kernels can be kept: set NUMBA_CACHE_DIR to one")
-    uses = (*((planner, "audit", "bound") if planner else KERNELS_OF), *every_field_kernels())
+    uses = (*((planner, f"timely {planner}", "audit", "bound") if planner else KERNELS_OF), *every_field_kernels())
     missing = sum(not is_marked(kernels) for kernels in kernels_of(uses))
     prepare(*uses)
     click.echo(f"{len(kernels_of(uses))} parts are ready, {missing} of them compiled now")

@@ -16,6 +16,7 @@ from typing import Any, Literal, overload
 from trihex.areas import Scenario, check_possible
 from trihex.errors import PlanError, check_choice, check_type
 from trihex.fields import NScheme, field_kernels, make_n_scheme
+from trihex.kernels.needs import use_of
 from trihex.kernels.preparing import prepare
 from trihex.plans import Arrivals, Plan, make_arrivals
 
@@ -164,7 +165,7 @@ def make_plan(
     plan = planner_named(planner)
     check_choice("record", record, RECORDS, PlanError)
     check_planner_options(planner, options)
-    prepare(planner, field_kernels(scenario.area.tessellation, scenario.corners))
+    prepare(use_of(planner, scenario.is_stepwise), field_kernels(scenario.area.tessellation, scenario.corners))
     if n_scheme is None:
         n_scheme = make_n_scheme(scenario)
     elif n_scheme.scenario is not scenario and n_scheme.scenario != scenario:

@@ -15,6 +15,7 @@ from trihex.bounds import LowerBound, make_lower_bound
 from trihex.errors import TooLargeError, check_many, check_type
 from trihex.fields import field_kernels, make_n_scheme
 from trihex.judging import Report, audit_plan, make_report
+from trihex.kernels.needs import use_of
 from trihex.kernels.preparing import prepare
 from trihex.planners import make_plan, planner_from
 from trihex.record import Record, counted, html_table
@@ -157,7 +158,8 @@ def make_comparison(
         wanted[label] = (name, {**options, **(planners[label] if isinstance(planners, Mapping) else {})})
         _try(*wanted[label])
     shapes = {field_kernels(scenario.area.tessellation, scenario.corners) for scenario in scenarios}
-    prepare(*(name for name, _ in wanted.values()), "audit", "bound", *shapes)
+    uses = [use for use, _ in wanted.values()] + ["audit", "bound"]
+    prepare(*{use_of(use, scenario.is_stepwise): None for scenario in scenarios for use in uses}, *shapes)
     entries: list[Entry] = []
     for scenario in scenarios:
         entries += _entries(scenario, wanted, clock, progress, (len(entries), len(scenarios) * len(wanted)))
