@@ -7,6 +7,9 @@ from .claim import (
     check_possible as check_possible,
     claimed as claimed,
 )
+from .clearance import (
+    usual_following as usual_following,
+)
 from .coverage import (
     Covering as Covering,
     cover_polygons as cover_polygons,
@@ -15,6 +18,7 @@ from .coverage import (
 )
 from .entries import (
     entries_per_step as entries_per_step,
+    ways_into_destinations as ways_into_destinations,
 )
 from .frame import (
     Frame as Frame,

@@ -22,7 +22,7 @@ PATH = click.Path(path_type=Path)
 
 
 # What `rule_options` adds, and what `formats.options.AreaOptions` takes besides the tessellation.
-RULES = ("waiting_cost", "crossing", "corners", "destination_capacity", "destination")
+RULES = ("waiting_cost", "crossing", "corners", "destination_capacity", "clock", "following", "destination")
 _PLACE = ("cell_size", "robot_radius", "unknown", "threshold", "invert", "resolution")
 
 
@@ -76,6 +76,16 @@ def rule_options(command: Command) -> Command:
             "--corners",
             type=Name("trihex.areas.scenario", "CORNERS"),
             help="When a robot may pass a vertex beside barriers. [default: allow]",
+        ),
+        click.option(
+            "--following",
+            type=Name("trihex.areas.scenario", "FOLLOWINGS"),
+            help="Whether a robot may enter a cell while another is still leaving it. [default: allow]",
+        ),
+        click.option(
+            "--clock",
+            type=Name("trihex.areas.tessellation", "CLOCKS"),
+            help="Whether moves last a step each, or as long as they cost, in ticks. [default: steps]",
         ),
         click.option("--waiting-cost", type=Whole(0), help="Cost of waiting one step. [default: that of an edge]"),
         click.option(
@@ -147,7 +157,7 @@ def _changed(draft: Draft, options: dict[str, Any]) -> Draft:
     from trihex.files import read_bytes
     from trihex.formats import format_of, read_starts
 
-    rules = ("waiting_cost", "crossing", "corners", "destination_capacity")
+    rules = [name for name in RULES if name != "destination"]
     changes: dict[str, Any] = {name: options[name] for name in rules if options.get(name) is not None}
     if options.get("destination"):
         cells = [_cell_of(draft.area, place) for place in options["destination"]]

@@ -140,6 +140,8 @@ class Report(Record):
             "corners": scenario.corners,
             "crossing": scenario.crossing,
             "destination_capacity": scenario.destination_capacity,
+            "clock": scenario.clock,
+            "following": scenario.following,
             "cells": area.cell_count,
             "free_cells": area.free_count,
             "robots": scenario.robot_count,

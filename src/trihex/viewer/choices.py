@@ -4,7 +4,17 @@ from __future__ import annotations
 
 from typing import Any
 
-from trihex.areas import CORNERS, COSTS, CROSSINGS, GENERATORS, NEIGHBOURHOODS, TESSELLATIONS, Tessellation
+from trihex.areas import (
+    CLOCKS,
+    CORNERS,
+    COSTS,
+    CROSSINGS,
+    FOLLOWINGS,
+    GENERATORS,
+    NEIGHBOURHOODS,
+    TESSELLATIONS,
+    Tessellation,
+)
 from trihex.planners import PLANNERS, options_of
 from trihex.viewer.exports import EXPORTS
 from trihex.viewer.folder import SUFFIXES
@@ -21,6 +31,8 @@ def choices() -> dict[str, Any]:
         "costs": COSTS,
         "crossings": CROSSINGS,
         "corners": CORNERS,
+        "clocks": CLOCKS,
+        "followings": FOLLOWINGS,
         "generators": ["empty", *GENERATORS],
         "planners": {name: options_of(name) for name in PLANNERS},
         "exports": {what: {"suffixes": suffixes, "needs": needs} for what, (suffixes, needs) in EXPORTS.items()},

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from trihex.areas import Area, Frame, Tessellation
+from trihex.areas import Area, Frame, Tessellation, usual_following
 from trihex.errors import FormatError, TooLargeError
 from trihex.formats import Draft
 from trihex.viewer.bundle import Bundle
@@ -48,6 +48,8 @@ class DocumentHeader(_Strict):
     waiting_cost: _Whole | None = None
     crossing: str = "forbid"
     corners: str = "allow"
+    clock: str = "steps"
+    following: str | None = None
     destination_capacity: Annotated[int, Field(ge=1, le=2**30)] | None = None
     seed: Annotated[int, Field(ge=0, lt=2**53)] | None = None  # JavaScript has no larger whole numbers
 
@@ -87,6 +89,8 @@ def document_of(draft: Draft) -> Bundle:
         "waiting_cost": None if draft.waiting_cost is None else int(draft.waiting_cost),
         "crossing": draft.crossing or "forbid",
         "corners": draft.corners or "allow",
+        "clock": draft.clock or area.tessellation.clock,
+        "following": draft.following or usual_following(area.tessellation, frame),
         "destination_capacity": None if draft.destination_capacity is None else int(draft.destination_capacity),
         "seed": None if draft.seed is None else int(draft.seed),
     }
@@ -136,6 +140,8 @@ def draft_of_document(header: Any, arrays: dict[str, NDArray[Any]]) -> Draft:
         waiting_cost=parsed.waiting_cost,
         crossing=parsed.crossing,
         corners=parsed.corners,
+        clock=parsed.clock,
+        following=parsed.following,
         destination_capacity=parsed.destination_capacity,
     )
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from trihex.errors import FormatError, check_type
 from trihex.files import read_bytes
 from trihex.formats.archive import Entries, pack, unpack
-from trihex.formats.scenarios.arrays import SCENARIO_ENTRIES, scenario_arrays, scenario_from
+from trihex.formats.scenarios.arrays import LATER_ENTRIES, SCENARIO_ENTRIES, scenario_arrays, scenario_from
 from trihex.kernels.codes import LATE, WAIT
 from trihex.running import BROKEN, KINDS, Event, Occurrence, Run, Sensor
 
@@ -92,7 +92,7 @@ def read_run(path: str | os.PathLike[str]) -> Run:
     OSError
         If the file cannot be read.
     """
-    arrays = unpack(read_bytes(path), path, _ENTRIES, VERSION, "a run")
+    arrays = unpack(read_bytes(path), path, _ENTRIES, VERSION, "a run", LATER_ENTRIES)
     scenario = scenario_from(arrays, path)
     radius, area = float(arrays["radius"]), scenario.area
     run = Run(

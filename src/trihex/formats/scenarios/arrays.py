@@ -11,6 +11,8 @@ from trihex.areas import Area, Frame, Scenario, Tessellation
 from trihex.errors import FormatError
 from trihex.formats.archive import Entries
 
+# Rules that came later, and what holds where a file does not have them: it has none that is usual.
+LATER_ENTRIES = {"clock": "steps", "following": "allow"}
 SCENARIO_ENTRIES: Entries = {
     "tessellation": ("U", 0),
     "neighbourhood": ("U", 0),
@@ -25,6 +27,7 @@ SCENARIO_ENTRIES: Entries = {
     "corners": ("U", 0),
     "destination_capacity": ("i", 0),  # 0: any number
     "seed": ("i", 0),  # -1: none
+    **dict.fromkeys(LATER_ENTRIES, ("U", 0)),
 }
 
 
@@ -45,6 +48,7 @@ def scenario_arrays(scenario: Scenario) -> dict[str, Any]:
         "corners": scenario.corners,
         "destination_capacity": scenario.entry_limit,
         "seed": -1 if scenario.seed is None else scenario.seed,
+        **{name: rule for name, usual in LATER_ENTRIES.items() if (rule := getattr(scenario, name)) != usual},
     }
 
 
@@ -62,6 +66,7 @@ def scenario_from(arrays: dict[str, Any], path: object, kind: type[Scenario] = S
         text["corners"],
         None if capacity == 0 else capacity,
         None if seed == -1 else seed,
+        **{name: text[name] for name in LATER_ENTRIES},
     )
 
 

@@ -149,10 +149,12 @@ def write_scenario_toml(
         *_area_lines(area),
         "",
         "[rules]",
-        f"waiting_cost = {scenario.waiting_cost}",
+        f"waiting_cost = {scenario.waiting_cost}" if scenario.clock == "steps" else "",  # else it is 1 a tick
         f"crossing = {_text(scenario.crossing)}",
         f"corners = {_text(scenario.corners)}",
         f"destination_capacity = {scenario.destination_capacity}" if scenario.destination_capacity else "",
+        f"clock = {_text(scenario.clock)}" if scenario.clock != "steps" else "",
+        f"following = {_text(scenario.following)}" if scenario.following != "allow" else "",
         "",
         "[robots]",
         f"cells = {_cells(area, scenario.robots)}",

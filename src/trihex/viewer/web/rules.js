@@ -6,7 +6,7 @@ import { grid, inner, numberField, section, select } from "./controls.js";
 export class Rules {
   constructor(app) {
     this.app = app;
-    const { tessellations, neighbourhoods, costs, corners, crossings } = app.settings;
+    const { tessellations, neighbourhoods, costs, corners, crossings, clocks, followings } = app.settings;
     const retile = (name) => (event) => this.#retile({ [name]: event.target.value });
     const rule = (name) => (event) => this.#rule(name, event.target.value);
     const whole = (name) => (event) => this.#rule(name, wholeOf(event.target));
@@ -18,6 +18,8 @@ export class Rules {
       costs: select("Costs", costs, retile("costs")),
       corners: select("Corners", corners, rule("corners")),
       crossing: select("Crossing", crossings, rule("crossing")),
+      clock: select("Clock", clocks, retile("clock")),
+      following: select("Following", followings, rule("following")),
       waiting_cost: numberField("Waiting cost w_t", "",
         { min: 0, placeholder: "one edge", onchange: whole("waiting_cost") }),
       destination_capacity: numberField("Arrivals per step and destination", "",
@@ -35,7 +37,7 @@ export class Rules {
       return app.say("This area lies in the world in metres: open its file again with other cells.", true);
     }
     // A cost of waiting in the old unit would mean something else.
-    if (changes.costs) header.waiting_cost = null;
+    if (changes.costs || changes.clock) header.waiting_cost = null;
     app.change({ header });
   }
 
