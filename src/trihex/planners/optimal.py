@@ -88,13 +88,11 @@ def _check_is_flow(scenario: Scenario) -> None:
         return
     rule = "following='allow', not 'forbid'"
     if scenario.following == "allow":
-        *some, last = np.unique(scenario.duration_of_direction).tolist()
-        rule = (
-            f"moves that last equally long, not {', '.join(map(str, some))} and {last} ticks as by clock='costs' here"
-        )
+        *some, last = map(str, np.unique(scenario.duration_of_direction))
+        rule = f"moves that last equally long, not {', '.join(some)} and {last} ticks as by clock='costs' here"
     raise PlanError(
-        f"planner 'optimal' needs {rule}, which is no pure flow; the lower bound in the report of another planner tells "
-        "how far its plan is from the optimum at most"
+        f"planner 'optimal' needs {rule}, which is no pure flow; the lower bound in the report of another planner "
+        "tells how far its plan is from the optimum at most"
     )
 
 
