@@ -31,7 +31,7 @@ KERNELS_OF: dict[str, tuple[str, ...]] = {
     "timely fcost": (*_TIMELY, *_REPAIR, "planners.lanes", "planners.laying"),
     "optimal": (*_FCOST, *_OPTIMUM),
     "audit": ("judging.audit", "plans.replay"),
-    "owners": ("judging.timed",),
+    "timely audit": ("judging.timed", "plans.replay"),
     "bound": (*_BOUND, "bounds.steps", "bounds.units"),
     "execution": _EXECUTION,
     "trial": (*_EXECUTION, "running.sensing"),
