@@ -8,10 +8,9 @@ from .claim import (
     claimed as claimed,
 )
 from .coverage import (
-    Covering as Covering,
+    cover as cover,
     cover_polygons as cover_polygons,
     cover_raster as cover_raster,
-    import_shapely as import_shapely,
 )
 from .entries import (
     entries_per_step as entries_per_step,
@@ -27,8 +26,14 @@ from .generators import (
     make_rooms_area as make_rooms_area,
     make_warehouse_area as make_warehouse_area,
 )
+from .grid import (
+    Covering as Covering,
+)
 from .ground import (
+    DrawnGround as DrawnGround,
     Ground as Ground,
+    RasterGround as RasterGround,
+    import_shapely as import_shapely,
 )
 from .hexagons import (
     axial_to_xy as axial_to_xy,

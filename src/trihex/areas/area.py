@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from trihex.areas.frame import Frame
+from trihex.areas.ground import Ground
 from trihex.areas.hexagons import axial_to_xy, whole, xy_to_axial
 from trihex.areas.layout import Layout
 from trihex.areas.nearest import nearest_free_cell
@@ -40,6 +41,8 @@ class Area(Record):
         For reports; a reader puts the name of the file here. Characters that no file can keep become U+FFFD.
     frame : Frame, optional
         Where the area lies in the world; None if it is measured in cells only.
+    ground : Ground, optional
+        What stands in the world, from which the barriers were made; no file keeps it, and two areas are equal without.
 
     Raises
     ------
@@ -58,6 +61,7 @@ class Area(Record):
     barriers: NDArray[np.bool_]
     name: str = ""
     frame: Frame | None = None
+    ground: Ground | None = field(default=None, compare=False, repr=False)
 
     def __post_init__(self) -> None:
         self._set("tessellation", tessellation_from(self.tessellation))

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Area, Ground, cover_raster
+from trihex.areas import Area, cover_raster
 from trihex.areas.coverage import Progress
 from trihex.errors import FormatError
 from trihex.files import new_file
@@ -133,7 +133,7 @@ def parse_image(content: bytes, path: str | os.PathLike[str], options: AreaOptio
         name=name,
         progress=progress,
     )
-    return Draft(area, ground=Ground(occupied, options.resolution / covering.cell_size))
+    return Draft(area)
 
 
 def write_image(area: Area, path: str | os.PathLike[str]) -> None:

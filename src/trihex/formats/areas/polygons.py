@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Area, Ground, cover_polygons, import_shapely
+from trihex.areas import Area, cover_polygons, import_shapely
 from trihex.areas.coverage import Progress
 from trihex.errors import AreaError, FormatError
 from trihex.formats.areas.options import AreaOptions
@@ -21,7 +21,6 @@ from trihex.record import Record
 
 # The Earth is 4e7 metres around.
 MOST_METRES = 1e9
-_GROUND_PIXELS = 500_000
 
 
 class Drawn(NamedTuple):
@@ -86,23 +85,7 @@ def draft_of_place(place: Place, options: AreaOptions, progress: Progress | None
         area,
         np.concatenate(destinations) if destinations else None,
         _cells_of_points(area, place.robot, "robot") if place.robot else None,
-        ground=_ground(area, free, obstacles),
     )
-
-
-def _ground(area: Area, free: Any, obstacles: Any) -> Ground:
-    """Return a raster of what is occupied: pixels whose centre is not free, or half a pixel from an obstacle."""
-    import shapely
-
-    across, down = area.tessellation.extent(area.height, area.width)
-    square = max(1 / 16, (across * down / _GROUND_PIXELS) ** 0.5)
-    py, px = np.mgrid[0:down:square, 0:across:square] + square / 2
-    x, y = area.metres.point_to_metres(px, py)
-    occupied = ~shapely.contains_xy(free, x, y)
-    if obstacles is not None:
-        shapely.prepare(obstacles)
-        occupied |= shapely.dwithin(obstacles, shapely.points(x, y), square * area.metres.cell_size / 2)
-    return Ground(occupied, square)
 
 
 def checked_parts(where: str, shape: Any) -> list[Drawn]:

@@ -99,7 +99,6 @@ def _draft_of(
         **table.rules.model_dump(),
         planner=table.planner.name,
         planner_options=table.planner.options,
-        ground=draft.ground,
         outputs=_outputs(table, path),
     )
 
@@ -127,8 +126,7 @@ def _area_draft(table: AreaTable, path: Path, read_area_draft: Callable[[Path, A
     if table.frame is not None:
         x, y = table.frame.origin
         frame = Frame(table.frame.cell_size, (x, y), table.frame.yaw, table.frame.robot_radius)
-    area = Area(tessellation, draft.area.barriers, name, frame)
-    return replace(draft, area=area)
+    return replace(draft, area=replace(draft.area, tessellation=tessellation, name=name, frame=frame))
 
 
 def write_scenario_toml(
