@@ -1,9 +1,12 @@
 """Random trials: scenario, events, sensor and delays, all drawn from one number."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from tests.strategies import random_scenario
-from trihex.running import KINDS, Event, Sensor, Trial
+from trihex.areas import Zone
+from trihex.running import KINDS, OF_ZONES, Event, Sensor, Trial
 
 LAST_STEP = 40
 RADII = (None, 0, 1, 2.5, 3, 5)
@@ -26,6 +29,8 @@ def random_events(rng, scenario, count):
         details = {n: place() if n in ("cell", "to") else int(rng.integers(most[n])) for n in KINDS[kind]}
         if "steps" in details:
             details["steps"] += 1
+        if kind in OF_ZONES and rng.random() < 0.3:
+            details = {"zone": ("west", "odd, cells", "nowhere")[rng.integers(3)]}
         events.append(Event(int(rng.integers(1, LAST_STEP)), kind, **details))
     return events
 
@@ -34,6 +39,9 @@ def random_trial(seed, **limits):
     """Return a trial; what robots see, what happens and who is late as the number says."""
     rng = np.random.default_rng([seed, 9])
     scenario = random_scenario(seed, **{"sides": (3, 16), **limits})
+    cells = np.arange(scenario.area.cell_count)
+    zones = Zone("west", cells[cells % scenario.area.width < 2]), Zone("odd, cells", cells[1::4])
+    scenario = replace(scenario, area=replace(scenario.area, zones=zones))
     radius = RADII[rng.integers(len(RADII))]
     return Trial(
         scenario,

@@ -65,3 +65,7 @@ from .tessellation import (
 from .world import (
     World as World,
 )
+from .zone import (
+    Zone as Zone,
+    count_by_zone as count_by_zone,
+)

@@ -16,7 +16,8 @@ from trihex.areas.layout import Layout
 from trihex.areas.nearest import nearest_free_cell
 from trihex.areas.places import numbers_from
 from trihex.areas.tessellation import Tessellation, tessellation_from
-from trihex.errors import AreaError, TessellationError, check_type, kind_of
+from trihex.areas.zone import Zone, zones_from
+from trihex.errors import AreaError, TessellationError, check_choice, check_many, check_type, kind_of
 from trihex.record import Record, read_only
 
 # Sites are int32, and the widest kernels keep some 40 bytes a cell.
@@ -41,6 +42,8 @@ class Area(Record):
         For reports; a reader puts the name of the file here. Characters that no file can keep become U+FFFD.
     frame : Frame, optional
         Where the area lies in the world; None if it is measured in cells only.
+    zones : tuple of Zone
+        Cells that have a name, such as exits; those of one name become one.
     ground : Ground, optional
         What stands in the world, from which the barriers were made; no file keeps it, and two areas are equal without.
 
@@ -61,6 +64,7 @@ class Area(Record):
     barriers: NDArray[np.bool_]
     name: str = ""
     frame: Frame | None = None
+    zones: tuple[Zone, ...] = ()
     ground: Ground | None = field(default=None, compare=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -75,6 +79,8 @@ class Area(Record):
         if barriers.size > MAX_CELLS:
             raise AreaError(f"an area may have at most {MAX_CELLS} cells, not {barriers.size}")
         self._set("barriers", read_only(barriers))
+        check_many("zones", self.zones, Zone, "a list of zones")
+        self._set("zones", zones_from(self.zones, barriers.size))
 
     def in_words(self) -> str:
         """Return shape, size, free cells and name."""
@@ -268,6 +274,13 @@ class Area(Record):
         if self.frame is None:
             raise AreaError("the area is measured in cells, not in metres; give it a frame (cell_size)")
         return self.frame
+
+    def cells_of_zone(self, name: str) -> NDArray[np.int64]:
+        """Return the numbers of the cells of a zone, ascending; raise AreaError, with a near name, if there is none."""
+        cells = {zone.name: zone.cells for zone in self.zones}
+        if not cells:
+            raise AreaError(f"zone {name!r:.80} does not exist: the area has none")
+        return cells[check_choice("zone", name, cells, AreaError)]
 
     def name_of_cell(self, cell: int) -> str:
         """Return ``(x, y)`` as text, for messages."""

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.areas import Area, World
-from trihex.errors import ExecutionError
+from trihex.errors import AreaError, ExecutionError
 from trihex.running.events import Event
 
 
@@ -21,12 +21,12 @@ def cell_at(area: Area, place: tuple[int, int] | None) -> int:
 
 
 def changes_of(event: Event, world: World, cell_of_robot: NDArray[np.int64]) -> dict[str, tuple[int, ...]]:
-    """Return what an event that concerns a cell changes, as `World.change` takes it.
+    """Return what an event that concerns cells changes, as an `Occurrence` has it.
 
     Parameters
     ----------
     event : Event
-        A barrier that comes or goes, or a destination that opens, closes or moves.
+        A barrier that comes or goes, or a destination that opens, closes or moves. Of many cells those change that can.
     world : World
         As it is before the event.
     cell_of_robot : int64 array
@@ -38,6 +38,8 @@ def changes_of(event: Event, world: World, cell_of_robot: NDArray[np.int64]) -> 
         If it cannot happen.
     """
     area = world.area
+    if event.zone is not None:
+        return _changes_of_many(event, _cells_of_zone(area, event.zone), world, cell_of_robot)
     cell = cell_at(area, event.cell)
     if event.kind == "barrier":
         return {"blocked": (_check_clear(cell, world, cell_of_robot),)}
@@ -52,6 +54,39 @@ def changes_of(event: Event, world: World, cell_of_robot: NDArray[np.int64]) -> 
     if event.kind == "close":
         return {"closed": (cell,)}
     return {"closed": (cell,), "opened": (_check_new(cell_at(area, event.to), world),)}
+
+
+def _cells_of_zone(area: Area, name: str) -> set[int]:
+    try:
+        return set(area.cells_of_zone(name).tolist())
+    except AreaError as error:
+        raise ExecutionError(str(error)) from None
+
+
+def _changes_of_many(
+    event: Event, cells: set[int], world: World, cell_of_robot: NDArray[np.int64]
+) -> dict[str, tuple[int, ...]]:
+    """Return what changes of many cells; raises ExecutionError if none can."""
+    barred = {cell for cell in cells if world.is_barrier(cell)}
+    taken = cells & set(cell_of_robot.tolist())
+    goals = cells & world.destinations
+    if event.kind == "barrier":  # whoever wanted to go there cannot
+        changes = {"blocked": cells - barred - taken, "closed": goals - taken, "left_out": taken - barred}
+    elif event.kind == "clear":
+        changes = {"freed": barred}
+    elif event.kind == "open":
+        changes = {"opened": cells - barred - goals}
+    else:
+        changes = {"closed": goals}
+    if not any(changes.values()):
+        what = {
+            "barrier": "free",
+            "clear": "a barrier",
+            "open": "free and no destination yet",
+            "close": "a destination",
+        }
+        raise ExecutionError(f"no cell of {event.place} is {what[event.kind]}")
+    return {name: tuple(sorted(own)) for name, own in changes.items()}
 
 
 def _check_clear(cell: int, world: World, cell_of_robot: NDArray[np.int64]) -> int:

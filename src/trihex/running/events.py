@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.errors import ScenarioError, check_choice
+from trihex.areas import Zone
+from trihex.errors import AreaError, ScenarioError, check_choice
 
 # What each kind of event needs beside its step.
 KINDS = {
@@ -22,6 +23,8 @@ KINDS = {
     "break": ("robot",),
     "late": ("robot", "steps"),
 }
+# What can happen to all cells of a zone.
+OF_ZONES = ("barrier", "clear", "open", "close")
 MOST_STEPS = 1_000_000
 
 
@@ -40,6 +43,9 @@ class Event:
         becomes a barrier; "late": it stands still for so many `steps`, this one being the first.
     cell, to : (x, y), optional
     robot, steps : int, optional
+    zone : str, optional
+        The name of a zone of the area in place of `cell`, for what happens to all of its cells that it can happen to:
+        a barrier comes or goes, destinations open or close.
 
     Raises
     ------
@@ -58,15 +64,12 @@ class Event:
     to: tuple[int, int] | None = None
     robot: int | None = None
     steps: int | None = None
+    zone: str | None = None
 
     def __post_init__(self) -> None:
         check_choice("event", self.kind, KINDS, ScenarioError)
         _check_whole("step", self.step, 1)
-        for name in ("cell", "to", "robot", "steps"):
-            value = getattr(self, name)
-            if (value is not None) != (name in KINDS[self.kind]):
-                needs = " and ".join(KINDS[self.kind])
-                raise ScenarioError(f"event {self.kind!r} at step {self.step} takes {needs}, not {name}={value}")
+        self._check_needs()
         for name in ("cell", "to"):
             if (value := getattr(self, name)) is not None:
                 object.__setattr__(self, name, _pair(name, value))
@@ -74,13 +77,34 @@ class Event:
             _check_whole("robot", self.robot, 0)
         if self.steps is not None:
             _check_whole("steps", self.steps, 1)
+        if self.zone is not None:
+            try:
+                Zone(self.zone, ())  # type: ignore[arg-type]
+            except AreaError as error:
+                raise ScenarioError(f"event {self.kind!r} at step {self.step}: {error}") from None
+
+    def _check_needs(self) -> None:
+        """Raise unless all is there that the kind needs, and nothing else."""
+        needs = KINDS[self.kind]
+        given = {name for name in ("cell", "to", "robot", "steps", "zone") if getattr(self, name) is not None}
+        if given == set(needs) or (given == {"zone"} and self.kind in OF_ZONES):
+            return
+        words = " and ".join(needs) + " or zone" * (self.kind in OF_ZONES)
+        wrong = [f"{name}={getattr(self, name)!r:.80}" for name in sorted(given - set(needs))]
+        wrong = wrong or [f"{name}=None" for name in needs if name not in given]
+        raise ScenarioError(f"event {self.kind!r} at step {self.step} takes {words}, not {wrong[0]}")
+
+    @property
+    def place(self) -> str:
+        """Where it happens, in words."""
+        return f"{self.cell}" if self.zone is None else f"{self.zone!r}"
 
     def __str__(self) -> str:
         words = {
-            "barrier": f"barrier at {self.cell}",
-            "clear": f"barrier at {self.cell} goes",
-            "open": f"destination opens at {self.cell}",
-            "close": f"destination closes at {self.cell}",
+            "barrier": f"barrier at {self.place}",
+            "clear": f"barrier at {self.place} goes",
+            "open": f"destination opens at {self.place}",
+            "close": f"destination closes at {self.place}",
             "move": f"destination moves from {self.cell} to {self.to}",
             "join": f"robot joins at {self.cell}",
             "leave": f"robot {self.robot} leaves",
@@ -101,6 +125,8 @@ class Occurrence:
         Why it could not happen, empty if it did. The world is then as it was.
     blocked, freed, opened, closed : tuple of int
         Numbers of the cells that it changed.
+    left_out : tuple of int
+        Numbers of cells that should have become barriers, but robots stood there.
     """
 
     event: Event
@@ -109,6 +135,7 @@ class Occurrence:
     freed: tuple[int, ...] = ()
     opened: tuple[int, ...] = ()
     closed: tuple[int, ...] = ()
+    left_out: tuple[int, ...] = ()
 
     @property
     def is_accepted(self) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 from time import perf_counter
 from typing import Any
 
@@ -143,8 +144,7 @@ class Trial:
     def tell(self, event: Event) -> None:
         """Add an event; if its step is over, it happens in the next one."""
         step = max(event.step, self.steps_done + 1)
-        event = Event(step, event.kind, event.cell, event.to, event.robot, event.steps)
-        self._events = sorted([*self._events, event], key=lambda one: one.step)
+        self._events = sorted([*self._events, replace(event, step=step)], key=lambda one: one.step)
 
     def run(self, *, most_steps: int = _STEPS_MOST, progress: Callable[[int, int], None] | None = None) -> Run:
         """Go on until no robot can, or for so many steps at most; return all that has happened.
@@ -218,15 +218,16 @@ class Trial:
             changes = self._changes_of(event)
         except (ExecutionError, ScenarioError) as error:
             return Occurrence(event, refusal=str(error))
-        sites = self._world.change(**changes)
+        occurrence = Occurrence(event, "", **changes)
+        sites = self._world.change(**occurrence.changes)
         if event.kind == "break":  # all know it
-            return Occurrence(event, "", **changes)
+            return occurrence
         if self.sensor is not None:
             self._knowledge.change(sites["blocked"], sites["freed"], event.step - 1)
             sites["blocked"], sites["freed"] = _NONE, sites["freed"][self.execution.field.blocked[sites["freed"]]]
             self._moved[:] = True  # all look again
         self._observe(**sites)
-        return Occurrence(event, "", **changes)
+        return occurrence
 
     def _changes_of(self, event: Event) -> dict[str, tuple[int, ...]]:
         """Return the cells that an event changes, after what it does to robots is done; raise an error if it cannot."""
@@ -279,8 +280,6 @@ class Trial:
 
 def _unknown(scenario: Scenario) -> Scenario:
     """Return the scenario as robots know it at the beginning: free everywhere."""
-    from dataclasses import replace
-
     area = scenario.area
     return replace(scenario, area=Area(area.tessellation, np.zeros_like(area.barriers), area.name, area.frame))
 

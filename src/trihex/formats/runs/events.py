@@ -17,7 +17,7 @@ from trihex.formats.toml import complaint, parse_toml
 from trihex.running import KINDS, MOST_STEPS, Event
 
 SUFFIXES = (".csv", ".toml")
-COLUMNS = ("step", "event", "x", "y", "to_x", "to_y", "robot", "steps")
+COLUMNS = ("step", "event", "x", "y", "to_x", "to_y", "robot", "steps", "zone")
 MAX_BYTES = 2**26
 
 _Step = Annotated[int, Field(ge=1, le=MOST_STEPS)]
@@ -33,6 +33,7 @@ class EventTable(Table):
     to: _Cell | None = None
     robot: Annotated[int, Field(ge=0, le=MOST_STEPS)] | None = None
     steps: _Step | None = None
+    zone: str | None = None
 
 
 class EventsTable(Table):
@@ -44,9 +45,9 @@ class EventsTable(Table):
 def read_events(path: str | os.PathLike[str]) -> tuple[Event, ...]:
     """Return the events of a file, in its order.
 
-    CSV has a header with `step`, `event` and those of `x`, `y`, `to_x`, `to_y`, `robot`, `steps` that are needed, in
-    any order; what an event does not need stays empty. TOML has a table ``[[event]]`` for each, with the keys `step`,
-    `event` and `cell`, `to` (each ``[x, y]``), `robot`, `steps`.
+    CSV has a header with `step`, `event` and those of `x`, `y`, `to_x`, `to_y`, `robot`, `steps`, `zone` that are
+    needed, in any order; what an event does not need stays empty. TOML has a table ``[[event]]`` for each, with the
+    keys `step`, `event` and `cell`, `to` (each ``[x, y]``), `robot`, `steps`, `zone` (the name of an exit).
 
     Raises
     ------
@@ -66,7 +67,7 @@ def _from_toml(text: Text, path: str | os.PathLike[str]) -> tuple[Event, ...]:
     for number, one in enumerate(table.event if table is not None and not mistakes else ()):
         try:
             cell, to = (None if place is None else (place[0], place[1]) for place in (one.cell, one.to))
-            events.append(Event(one.step, one.event, cell, to, one.robot, one.steps))
+            events.append(Event(one.step, one.event, cell, to, one.robot, one.steps, one.zone))
         except TrihexError as error:
             mistakes.append(f"event.{number}: {error}")
     if mistakes:
@@ -75,17 +76,19 @@ def _from_toml(text: Text, path: str | os.PathLike[str]) -> tuple[Event, ...]:
 
 
 def _from_csv(text: Text, path: str | os.PathLike[str]) -> tuple[Event, ...]:
-    lines = text.decode().splitlines() or [""]
-    header = [name.strip() for name in lines[0].split(",")]
+    try:
+        lines = [*csv.reader(text.decode().splitlines())] or [[]]
+    except csv.Error as error:
+        raise FormatError(f"{path}: is no CSV: {error}") from None
+    header = [name.strip() for name in lines[0]]
     for name in header:
         check_choice(f"{path}: line 1: a column", name, COLUMNS, FormatError)
     if len(set(header)) < len(header) or not {"step", "event"} <= set(header):
         raise FormatError(f"{path}: line 1: the header must have step and event, and each column once")
     events = []
-    for number, line in enumerate(lines[1:], start=2):
-        if not line.strip():
+    for number, values in enumerate(lines[1:], start=2):
+        if not "".join(values).strip():
             continue
-        values = line.split(",")
         if len(values) != len(header):
             raise FormatError(f"{path}: line {number}: there must be {len(header)} columns, not {len(values)}")
         try:
@@ -99,7 +102,7 @@ def _event_of(row: dict[str, str]) -> Event:
     """Return the event of a row of text."""
     numbers: dict[str, Any] = {}
     for name, text in row.items():
-        if name != "event" and text.strip():
+        if name not in ("event", "zone") and text.strip():
             try:
                 numbers[name] = int(text) if len(text) <= 20 else None
             except ValueError:
@@ -113,7 +116,15 @@ def _event_of(row: dict[str, str]) -> Event:
             raise FormatError(f"{one} and {other} must come together")
     cell = (numbers["x"], numbers["y"]) if "x" in numbers else None
     to = (numbers["to_x"], numbers["to_y"]) if "to_x" in numbers else None
-    return Event(numbers["step"], row["event"].strip(), cell, to, numbers.get("robot"), numbers.get("steps"))
+    return Event(
+        numbers["step"],
+        row["event"].strip(),
+        cell,
+        to,
+        numbers.get("robot"),
+        numbers.get("steps"),
+        row.get("zone", "").strip() or None,
+    )
 
 
 def write_events(events: tuple[Event, ...], path: str | os.PathLike[str]) -> None:
@@ -125,5 +136,5 @@ def write_events(events: tuple[Event, ...], path: str | os.PathLike[str]) -> Non
         writer.writerow(COLUMNS)
         for event in events:
             places = [*(event.cell or ("", "")), *(event.to or ("", ""))]
-            others = ["" if value is None else value for value in (event.robot, event.steps)]
+            others = ["" if value is None else value for value in (event.robot, event.steps, event.zone)]
             writer.writerow([event.step, event.kind, *places, *others])

@@ -18,7 +18,7 @@ from trihex.kernels.codes import LATE, WAIT
 from trihex.running import BROKEN, KINDS, Event, Occurrence, Run, Sensor
 
 VERSION = 1
-_CHANGES = ("blocked", "freed", "opened", "closed")
+_CHANGES = ("blocked", "freed", "opened", "closed", "left_out")
 _NONE = -(2**31)
 _ENTRIES: Entries = {
     "version": ("i", 0),
@@ -30,6 +30,7 @@ _ENTRIES: Entries = {
     "run_seed": ("i", 0),
     "events": ("i", 2),  # step, kind, x, y, to_x, to_y, robot, steps
     "refusals": ("u", 1),  # UTF-8, a line for each event
+    "zones_of_events": ("u", 1),  # the same
     "changes": ("i", 2),  # event, which of `_CHANGES`, cell
     "starts": ("i", 1),
     "joined": ("i", 1),
@@ -65,6 +66,9 @@ def write_run(run: Run, path: str | os.PathLike[str], *, progress: Callable[[int
             "run_seed": run.seed,
             "events": np.array(events, dtype=np.int64).reshape(-1, 8),
             "refusals": np.frombuffer("\n".join(refusals).encode(), dtype=np.uint8),
+            "zones_of_events": np.frombuffer(
+                "\n".join(one.event.zone or "" for one in run.occurrences).encode(), dtype=np.uint8
+            ),
             "changes": np.array(changes, dtype=np.int64).reshape(-1, 3),
             "starts": run.robots,
             "joined": run.joined,
@@ -117,8 +121,8 @@ def read_run(path: str | os.PathLike[str]) -> Run:
 
 def _occurrences(arrays: dict[str, Any], cells: int, path: object) -> tuple[Occurrence, ...]:
     events, changes = arrays["events"], arrays["changes"]
-    refusals = arrays["refusals"].tobytes().decode(errors="replace").split("\n") if len(events) else []
-    if events.shape[1] != 8 or len(refusals) != len(events) or changes.shape[1] != 3:
+    refusals, zones = (_lines(arrays[name], len(events)) for name in ("refusals", "zones_of_events"))
+    if events.shape[1] != 8 or not len(refusals) == len(zones) == len(events) or changes.shape[1] != 3:
         raise FormatError(f"{path}: events, refusals and changes do not fit each other")
     if changes.size and (changes.min() < 0 or (changes.max(axis=0) >= (len(events), len(_CHANGES), cells)).any()):
         raise FormatError(f"{path}: changes must name an event, what is changed and a cell of the area")
@@ -127,14 +131,19 @@ def _occurrences(arrays: dict[str, Any], cells: int, path: object) -> tuple[Occu
         own = changed[number]
         own[_CHANGES[which]] = (*own.get(_CHANGES[which], ()), cell)
     result = []
-    for (step, kind, *numbers), refusal, own in zip(events.tolist(), refusals, changed, strict=True):
+    for (step, kind, *numbers), refusal, zone, own in zip(events.tolist(), refusals, zones, changed, strict=True):
         if not 0 <= kind < len(KINDS):
             raise FormatError(f"{path}: there is no event of kind {kind}")
         x, y, to_x, to_y = numbers[:4]
         robot, steps = (None if number == _NONE else number for number in numbers[4:])
         cell, to = (None if x == _NONE else (x, y)), (None if to_x == _NONE else (to_x, to_y))
-        result.append(Occurrence(Event(step, list(KINDS)[kind], cell, to, robot, steps), refusal, **own))
+        result.append(Occurrence(Event(step, list(KINDS)[kind], cell, to, robot, steps, zone or None), refusal, **own))
     return tuple(result)
+
+
+def _lines(text: NDArray[np.uint8], count: int) -> list[str]:
+    """Return text as lines; none if there are to be none."""
+    return text.tobytes().decode(errors="replace").split("\n") if count else []
 
 
 def _check(run: Run, path: object) -> None:

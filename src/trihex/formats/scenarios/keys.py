@@ -32,6 +32,7 @@ class AreaTable(Table):
     neighbourhood: Annotated[str, choice("it", NEIGHBOURHOODS)] = "full"
     costs: Annotated[str, choice("it", COSTS)] = "paper"
     frame: FrameTable | None = None
+    zones: dict[str, Cells] = Field(default_factory=dict)
     # How the file at `path` is read; see `formats.options.AreaOptions`.
     cell_size: Annotated[Number, Field(gt=0)] | None = None
     robot_radius: Annotated[Number, Field(ge=0)] | None = None

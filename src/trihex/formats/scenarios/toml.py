@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Area, Frame, Scenario, Tessellation, cells_from
+from trihex.areas import Area, Frame, Scenario, Tessellation, Zone, cells_from
 from trihex.errors import FormatError, ScenarioError, TrihexError
 from trihex.files import new_file
 from trihex.formats.areas.letters import draft_of_letters
@@ -126,7 +126,9 @@ def _area_draft(table: AreaTable, path: Path, read_area_draft: Callable[[Path, A
     if table.frame is not None:
         x, y = table.frame.origin
         frame = Frame(table.frame.cell_size, (x, y), table.frame.yaw, table.frame.robot_radius)
-    return replace(draft, area=replace(draft.area, tessellation=tessellation, name=name, frame=frame))
+    area = replace(draft.area, tessellation=tessellation, name=name, frame=frame)
+    zones = [Zone(name, cells_from(area, cells, f"zones.{name}", ScenarioError)) for name, cells in table.zones.items()]
+    return replace(draft, area=replace(area, zones=(*area.zones, *zones)))
 
 
 def write_scenario_toml(
@@ -189,6 +191,7 @@ def _area_lines(area: Area) -> list[str]:
         *(f"  {_text(row)}," for row in rows),
         "]",
         *_frame_lines(area),
+        *_zone_lines(area),
     ]
 
 
@@ -217,6 +220,12 @@ def _frame_lines(area: Area) -> list[str]:
         f"yaw = {frame.yaw!r}",
         f"robot_radius = {frame.robot_radius!r}",
     ]
+
+
+def _zone_lines(area: Area) -> list[str]:
+    if not area.zones:
+        return []
+    return ["", "[area.zones]", *(f"{_text(zone.name)} = {_cells(area, zone.cells)}" for zone in area.zones)]
 
 
 def _cells(area: Area, cells: NDArray[np.int64]) -> str:
