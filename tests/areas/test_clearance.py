@@ -90,8 +90,10 @@ def test_the_least_cell_size_is_accepted_and_one_below_it_refused_with_the_least
         area = th.Area(tessellation, [[0, 0]], frame=th.Frame(size, robot_radius=0.15))
         assert th.Scenario(area, [(0, 0)], [(1, 0)]).destination_capacity == 1
     area = th.Area(tessellation, [[0, 0]], frame=th.Frame(least * 0.999, robot_radius=0.15))
-    with pytest.raises(th.AreaError, match=f"cell_size must be at least {said} metres on {name} cells") as caught:
-        th.Scenario(area, [(0, 0)])
+    with pytest.raises(
+        th.AreaError, match=rf"cell_size must be at least {said} metres \(.*\) on {name} cells"
+    ) as caught:
+        th.Scenario(area, [(0, 0)], following="allow")
     radius = float(str(caught.value).rsplit(" ", 1)[1])
     th.Scenario(th.Area(tessellation, [[0]], frame=th.Frame(least * 0.999, robot_radius=radius)), [(0, 0)])
 

@@ -52,10 +52,12 @@ from .regions import (
 from .scenario import (
     CORNERS as CORNERS,
     CROSSINGS as CROSSINGS,
+    FOLLOWINGS as FOLLOWINGS,
     Scenario as Scenario,
     random_robots as random_robots,
 )
 from .tessellation import (
+    CLOCKS as CLOCKS,
     COSTS as COSTS,
     NEIGHBOURHOODS as NEIGHBOURHOODS,
     TESSELLATIONS as TESSELLATIONS,

@@ -115,6 +115,20 @@ class Area(Record):
         """How the cells lie in the padded flat arrays of the kernels."""
         return self.tessellation.layout(self.height, self.width)
 
+    def with_clock(self, clock: str) -> Area:
+        """Return the same area whose moves last a step, or as long as they cost; in metres no robot is ever too fast.
+
+        Examples
+        --------
+        >>> Area("square", [[0]]).with_clock("costs").tessellation.cost_of_direction.tolist()
+        [5, 5, 5, 5, 7, 7, 7, 7]
+        """
+        own = self.tessellation
+        costs = "euclidean" if clock == "costs" and self.frame is not None else own.costs
+        if (own.clock, own.costs) == (clock, costs):
+            return self
+        return replace(self, tessellation=replace(own, clock=clock, costs=costs))
+
     def with_tessellation(self, tessellation: Tessellation | str) -> Area:
         """Return the same rectangle of barriers, read as cells of another tessellation.
 

@@ -50,7 +50,7 @@ class Covering(Record):
         frame = Frame(self.cell_size, robot_radius=self.robot_radius)
         self._set("cell_size", frame.cell_size)
         self._set("robot_radius", frame.robot_radius)
-        check_cell_size(self.tessellation, frame)
+        check_cell_size(self.tessellation, frame, "forbid")  # a scenario may still ask for more
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,14 +10,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.areas.area import Area
-from trihex.areas.clearance import check_cell_size, check_rules
+from trihex.areas.clearance import check_cell_size, check_rules, usual_following
 from trihex.areas.nearest import nearest_free_cell
 from trihex.areas.places import cells_from
+from trihex.areas.tessellation import CLOCKS
 from trihex.errors import ScenarioError, check_choice, check_type, check_whole
 from trihex.record import Record, counted, read_only
 
 CROSSINGS = ("forbid", "allow")
 CORNERS = ("allow", "no-squeeze", "no-cut")
+FOLLOWINGS = ("allow", "forbid")
 _MOST = 2**30  # the largest whole number that a parameter may be: sums of a few fit into int32
 _BLOCK = 1 << 24  # sites a kernel looks at in one call, even; Ctrl-C works in between
 
@@ -36,13 +38,24 @@ class Scenario(Record):
         that starts on a destination has arrived at step 0.
     waiting_cost : int, optional
         w_t, the cost of waiting one step, in the unit of the cost table. Default: as much as a step across an edge.
+        Where the clock is "costs" it is 1 a tick.
     crossing : {"forbid", "allow"}
         Whether two robots may pass the same lattice vertex in one step.
     corners : {"allow", "no-squeeze", "no-cut"}
         When a vertex move is open: always; if one way round the vertex meets no barrier; if no barrier touches the
         vertex. What lies outside the area counts as barrier.
     destination_capacity : int, optional
-        How many robots may enter one destination in one step. Default: any number; 1 in an area with a frame.
+        How many robots may enter one destination in one step, or be entering it at a time. Default: any number; 1 in an
+        area with a frame.
+    clock : {"steps", "costs"}, optional
+        "steps": every move lasts one step. "costs": a move lasts as long as it costs, in ticks, and waiting costs 1 a
+        tick, so that t_r is the tick of arrival; see `Tessellation`, whose clock is the default. In an area with a
+        frame durations are those of euclidean costs.
+    following : {"allow", "forbid"}, optional
+        Who owns a cell while a robot moves. "allow": it owns the cell that it leaves for half of the move, then the one
+        that it enters, so another may move up at once. "forbid": both for the whole move; nobody enters a cell that is
+        still being left, which is safe whatever the robots' speeds. A lattice vertex is owned for the whole move.
+        Default: "allow"; in an area with a frame "forbid" where that alone makes its cells large enough.
     seed : int, optional
         What drew the robots, for reports.
 
@@ -69,23 +82,26 @@ class Scenario(Record):
     corners: str = "allow"
     destination_capacity: int | None = None
     seed: int | None = None
+    clock: str = None  # type: ignore[assignment]
+    following: str = None  # type: ignore[assignment]
 
     def __post_init__(self) -> None:
-        area = self.area
-        check_type("area", area, Area, error=ScenarioError)
+        check_type("area", self.area, Area, error=ScenarioError)
         check_choice("crossing", self.crossing, CROSSINGS, ScenarioError)
         check_choice("corners", self.corners, CORNERS, ScenarioError)
-        if self.waiting_cost is None:
-            self._set("waiting_cost", area.tessellation.edge_cost)
-        check_whole("waiting_cost", self.waiting_cost, 0, _MOST, ScenarioError)
+        self._set_clock()
+        area = self.area
         if self.seed is not None:
             check_whole("seed", self.seed, 0, None, ScenarioError)
         if self.destination_capacity is None and area.frame is not None:
             self._set("destination_capacity", 1)
         if self.destination_capacity is not None:
             check_whole("destination_capacity", self.destination_capacity, 1, _MOST, ScenarioError)
+        if self.following is None:
+            self._set("following", usual_following(area.tessellation, area.frame))
+        check_choice("following", self.following, FOLLOWINGS, ScenarioError)
         if area.frame is not None:
-            check_cell_size(area.tessellation, area.frame)
+            check_cell_size(area.tessellation, area.frame, self.following)
             check_rules(area.tessellation, area.frame, self.crossing, self.destination_capacity)
         for parameter, one in (("destinations", "destination"), ("robots", "robot")):
             cells = cells_from(area, getattr(self, parameter), parameter, ScenarioError)
@@ -96,6 +112,20 @@ class Scenario(Record):
         self._set("destinations", read_only(_without_repeats(self.destinations)))
         self._check_distinct()
 
+    def _set_clock(self) -> None:
+        """Set what costs the area has by the clock, and what waiting costs."""
+        usual = self.area.tessellation.waiting_cost
+        if self.clock is not None:
+            check_choice("clock", self.clock, CLOCKS, ScenarioError)
+            self._set("area", self.area.with_clock(self.clock))
+        tessellation = self.area.tessellation
+        self._set("clock", tessellation.clock)
+        if self.waiting_cost is None or self.waiting_cost == usual != tessellation.waiting_cost:
+            self._set("waiting_cost", tessellation.waiting_cost)
+        check_whole("waiting_cost", self.waiting_cost, 0, _MOST, ScenarioError)
+        if self.clock == "costs" and self.waiting_cost != 1:
+            raise ScenarioError(f"waiting_cost must be 1 where clock is 'costs', not {self.waiting_cost}")
+
     def _check_free(self, cells: NDArray[np.int64], one: str) -> None:
         _check_free(self.area, cells, one)
 
@@ -104,8 +134,9 @@ class Scenario(Record):
 
     def in_words(self) -> str:
         """Return the area, how many destinations and robots, and rules that are not those of the paper."""
-        rules = {"waiting_cost": self.area.tessellation.edge_cost, "crossing": "forbid", "corners": "allow"}
+        rules = {"waiting_cost": self.area.tessellation.waiting_cost, "crossing": "forbid", "corners": "allow"}
         rules["destination_capacity"] = None if self.area.frame is None else 1
+        rules |= {"clock": "steps", "following": "allow"}
         odd = [f"{name}={getattr(self, name)!r}" for name, usual in rules.items() if getattr(self, name) != usual]
         goals = counted(self.destinations.size, "destination")
         return ", ".join([self.area.in_words(), goals, counted(self.robot_count, "robot"), *odd])
@@ -126,6 +157,21 @@ class Scenario(Record):
         """The first direction that passes a lattice vertex which others may not; their number if there is none."""
         tessellation = self.area.tessellation
         return tessellation.edge_count if self.forbids_crossing else tessellation.direction_count
+
+    @property
+    def duration_of_direction(self) -> NDArray[np.int32]:
+        """How many ticks a move in each direction lasts; waiting lasts one. All 1 where the clock is "steps"."""
+        return self.area.tessellation.duration_of_direction
+
+    @property
+    def is_stepwise(self) -> bool:
+        """Whether all moves last one step and others may move up at once: time in steps alone, as in the paper."""
+        return self.following == "allow" and bool((self.duration_of_direction == 1).all())
+
+    @property
+    def headway(self) -> int:
+        """How many ticks must pass at least between two robots that go through one cell."""
+        return int(self.duration_of_direction.min()) * (2 if self.following == "forbid" else 1)
 
     @property
     def entry_limit(self) -> int:

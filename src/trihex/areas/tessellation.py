@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from trihex.areas.directions import RINGS, ROWS, Row
 from trihex.errors import TessellationError, check_choice, check_type
 from trihex.record import Record, read_only
 
@@ -25,78 +26,16 @@ TESSELLATIONS = ("triangular", "hexagonal", "square")
 NEIGHBOURHOODS = ("full", "edge")
 COSTS = ("paper", "euclidean")
 
-# Neighbours as (dx, dy, direction, distance of the centres, lattice vertex passed), edge neighbours first.
-# The vertex is the position (dx, dy) of the cell that lends the vertex its number (see `Layout`); None on an edge.
-# One list for each orientation of a cell; both list directions of equal distance at equal places.
-_Row = tuple[int, int, str, float, tuple[int, int] | None]
-_SQUARE: list[_Row] = [
-    (0, -1, "N", 1, None),
-    (1, 0, "E", 1, None),
-    (0, 1, "S", 1, None),
-    (-1, 0, "W", 1, None),
-    (1, -1, "NE", sqrt(2), (1, 0)),
-    (1, 1, "SE", sqrt(2), (1, 1)),
-    (-1, 1, "SW", sqrt(2), (0, 1)),
-    (-1, -1, "NW", sqrt(2), (0, 0)),
-]
-_HEXAGON_EVEN: list[_Row] = [
-    (0, -1, "N", 1, None),
-    (1, -1, "NE", 1, None),
-    (1, 0, "SE", 1, None),
-    (0, 1, "S", 1, None),
-    (-1, 0, "SW", 1, None),
-    (-1, -1, "NW", 1, None),
-]
-_HEXAGON_ODD: list[_Row] = [
-    (0, -1, "N", 1, None),
-    (1, 0, "NE", 1, None),
-    (1, 1, "SE", 1, None),
-    (0, 1, "S", 1, None),
-    (-1, 1, "SW", 1, None),
-    (-1, 0, "NW", 1, None),
-]
-# A triangle that points north: three neighbours meet it at its apex, three at each end of its base.
-_TRIANGLE_NORTH: list[_Row] = [
-    (1, 0, "E", 1, None),
-    (-1, 0, "W", 1, None),
-    (0, 1, "S", 1, None),
-    (2, 0, "EE", sqrt(3), (1, 1)),
-    (-2, 0, "WW", sqrt(3), (-1, 1)),
-    (1, -1, "NE", sqrt(3), (0, 0)),
-    (-1, -1, "NW", sqrt(3), (0, 0)),
-    (1, 1, "SE", sqrt(3), (1, 1)),
-    (-1, 1, "SW", sqrt(3), (-1, 1)),
-    (0, -1, "N", 2, (0, 0)),
-    (2, 1, "SSE", 2, (1, 1)),
-    (-2, 1, "SSW", 2, (-1, 1)),
-]
-# Its mirror image: north and south exchanged, apex below.
-_TRIANGLE_SOUTH: list[_Row] = [
-    (1, 0, "E", 1, None),
-    (-1, 0, "W", 1, None),
-    (0, -1, "N", 1, None),
-    (2, 0, "EE", sqrt(3), (1, 0)),
-    (-2, 0, "WW", sqrt(3), (-1, 0)),
-    (1, 1, "SE", sqrt(3), (0, 1)),
-    (-1, 1, "SW", sqrt(3), (0, 1)),
-    (1, -1, "NE", sqrt(3), (1, 0)),
-    (-1, -1, "NW", sqrt(3), (-1, 0)),
-    (0, 1, "S", 2, (0, 1)),
-    (2, -1, "NNE", 2, (1, 0)),
-    (-2, -1, "NNW", 2, (-1, 0)),
-]
-_ROWS = {
-    "triangular": (_TRIANGLE_NORTH, _TRIANGLE_SOUTH),
-    "hexagonal": (_HEXAGON_EVEN, _HEXAGON_ODD),
-    "square": (_SQUARE, _SQUARE),
-}
-# The cells around a lattice vertex in clockwise order, as positions relative to the cell that lends it its number.
-_RINGS: dict[str, list[tuple[int, int]]] = {
-    "triangular": [(-1, -1), (0, -1), (1, -1), (1, 0), (0, 0), (-1, 0)],
-    "hexagonal": [],
-    "square": [(-1, -1), (0, -1), (0, 0), (-1, 0)],
-}
 _EDGE_COST = {"paper": 10, "euclidean": 1000}
+CLOCKS = ("steps", "costs")
+# How many ticks moves last where they last as long as they cost, by the distance of the centres: in the proportions of
+# the paper, and so that nobody is faster than on an edge. Where all moves are alike they last one tick.
+_TICKS = {
+    ("square", "paper"): {1: 5, sqrt(2): 7},
+    ("square", "euclidean"): {1: 7, sqrt(2): 10},
+    ("triangular", "paper"): {1: 5, sqrt(3): 7, 2: 7},
+    ("triangular", "euclidean"): {1: 4, sqrt(3): 7, 2: 8},
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,6 +50,10 @@ class Tessellation(Record):
     costs : {"paper", "euclidean"}
         "paper": 10 across an edge, 14 through a vertex (section 2.1.1 of the paper). "euclidean": the distance of the
         centres, rounded to integers on a scale where an edge step costs 1000 (square 1414; triangular 1732, 2000).
+    clock : {"steps", "costs"}
+        "steps": every move lasts one step. "costs": a move lasts as long as it costs, and both are counted in ticks:
+        5 across an edge and 7 through a vertex; at euclidean costs 4, 7 and 8 on triangles, 7 and 10 on squares. Where
+        all neighbours share an edge a move lasts one tick.
 
     Raises
     ------
@@ -128,15 +71,17 @@ class Tessellation(Record):
     name: str
     neighbourhood: str = "full"
     costs: str = "paper"
+    clock: str = "steps"
 
     def __post_init__(self) -> None:
         check_choice("tessellation", self.name, TESSELLATIONS, TessellationError)
         check_choice("neighbourhood", self.neighbourhood, NEIGHBOURHOODS, TessellationError)
         check_choice("costs", self.costs, COSTS, TessellationError)
+        check_choice("clock", self.clock, CLOCKS, TessellationError)
 
     @cached_property
-    def _rows(self) -> tuple[list[_Row], list[_Row]]:
-        one, other = _ROWS[self.name]
+    def _rows(self) -> tuple[list[Row], list[Row]]:
+        one, other = ROWS[self.name]
         if self.neighbourhood == "edge":
             return [row for row in one if row[4] is None], [row for row in other if row[4] is None]
         return one, other
@@ -184,7 +129,7 @@ class Tessellation(Record):
     @cached_property
     def steps_around_vertex(self) -> NDArray[np.int32]:
         """(dx, dy) of the cells around a lattice vertex, clockwise, from the cell that lends it its number."""
-        ring = _RINGS[self.name] if self.neighbourhood == "full" else []
+        ring = RINGS[self.name] if self.neighbourhood == "full" else []
         return read_only(np.array(ring, dtype=np.int32).reshape(-1, 2))
 
     @cached_property
@@ -205,8 +150,24 @@ class Tessellation(Record):
         return read_only(bends)
 
     @cached_property
+    def duration_of_direction(self) -> NDArray[np.int32]:
+        """How many ticks (steps) a move in each direction lasts, shape (directions,); the same for both orientations.
+
+        Examples
+        --------
+        >>> Tessellation("square", clock="costs").duration_of_direction.tolist()
+        [5, 5, 5, 5, 7, 7, 7, 7]
+        """
+        if self.clock == "steps" or self.edge_count == self.direction_count:
+            return read_only(np.ones(self.direction_count, dtype=np.int32))
+        ticks = _TICKS[self.name, self.costs]
+        return read_only(np.array([ticks[row[3]] for row in self._rows[0]], dtype=np.int32))
+
+    @cached_property
     def cost_of_direction(self) -> NDArray[np.int32]:
         """Cost of a move in each direction, shape (directions,); the same for both orientations."""
+        if self.clock == "costs":
+            return self.duration_of_direction
         if self.costs == "paper":
             return read_only(np.array([10 if row[4] is None else 14 for row in self._rows[0]], dtype=np.int32))
         return read_only(np.array([round(1000 * row[3]) for row in self._rows[0]], dtype=np.int32))
@@ -218,8 +179,19 @@ class Tessellation(Record):
 
     @property
     def edge_cost(self) -> int:
-        """Cost of a step across an edge, the unit of all times: 10 (paper) or 1000 (euclidean)."""
-        return _EDGE_COST[self.costs]
+        """Cost of a step across an edge: 10 (paper), 1000 (euclidean), or how many ticks it lasts."""
+        return int(self.duration_of_direction[0]) if self.clock == "costs" else _EDGE_COST[self.costs]
+
+    @property
+    def waiting_cost(self) -> int:
+        """What a robot pays that waits one step, unless a scenario sets it: as much as for an edge; 1 for a tick."""
+        return 1 if self.clock == "costs" else self.edge_cost
+
+    @cached_property
+    def longest_tick(self) -> float:
+        """How far a robot may have to go in a tick, in edge steps: the greatest distance of a move by its duration."""
+        ticks: list[int] = self.duration_of_direction.tolist()
+        return max(row[3] / duration for row, duration in zip(self._rows[0], ticks, strict=True))
 
     def orientation_of_cell(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.int64]:
         """Return 0 or 1: triangles that point north or south, hexagons of even or odd columns, squares 0."""

@@ -38,6 +38,8 @@ def make_distance_automaton(tessellation: Tessellation | str, corners: str = "al
     tessellation = tessellation_from(tessellation)
     check_choice("corners", corners, CORNERS, AutomatonError)
     cost = tessellation.cost_of_direction.reshape(-1, 1, 1)
+    if cost.min() == OBSTACLE:
+        raise AutomatonError(f"clock must be 'steps', not {tessellation.clock!r}: obstacles are 1, and so are moves")
     sides = [] if corners == "allow" else _sides_of_corner(tessellation)
 
     def rule(own: States, neighbours: States) -> States:

@@ -91,5 +91,5 @@ def _draw(scenario: Scenario, count: int, seed: int) -> NDArray[np.int64]:
 def draft_of(scenario: Scenario) -> Draft:
     """Return the draft that completes to `scenario`; a waiting cost like that of an edge stays so if costs change."""
     names = ("destinations", "robots", "seed", "crossing", "corners", "destination_capacity")
-    waiting_cost = None if scenario.waiting_cost == scenario.area.tessellation.edge_cost else scenario.waiting_cost
+    waiting_cost = None if scenario.waiting_cost == scenario.area.tessellation.waiting_cost else scenario.waiting_cost
     return Draft(scenario.area, waiting_cost=waiting_cost, **{name: getattr(scenario, name) for name in names})

@@ -187,7 +187,7 @@ def likeness_of(content: bytes, path: str | os.PathLike[str], scenario: Scenario
             continue
         other = Tessellation(name, "full", own.costs)
         area = Area(other, scenario.area.barriers)  # without a frame, which might forbid it
-        waiting_cost = scenario.waiting_cost if scenario.waiting_cost != own.edge_cost else other.edge_cost
+        waiting_cost = scenario.waiting_cost if scenario.waiting_cost != own.waiting_cost else other.waiting_cost
         try:
             plan = form.parse(content, path, Scenario(area, scenario.destinations, waiting_cost=waiting_cost))
         except TrihexError:

@@ -27,7 +27,8 @@ class Plan(Record):
     """The actions of all robots, one byte each, and the times that follow from them.
 
     Time runs in steps 1, 2, ...; in each step a robot that has not arrived makes one move or waits, and one that enters
-    a destination leaves the area in that step. Robot r has the actions
+    a destination leaves the area in that step. Where the clock of the scenario is "costs", steps are ticks: a move
+    lasts ``scenario.duration_of_direction`` of them, a wait one. Robot r has the actions
     ``actions[first_action[r] : first_action[r + 1]]``; its last one brings it to its destination. A robot that cannot
     arrive, or starts on a destination, has none.
 
@@ -142,7 +143,16 @@ class Plan(Record):
     @cached_property
     def arrival_step_of_robot(self) -> NDArray[np.int64]:
         """The step in which each robot enters its destination, -1 if it never does, shape (robots,)."""
-        return read_only(np.where(self.arrived, np.diff(self.first_action), -1))
+        return read_only(np.where(self.arrived, self.last_step_of_robot, -1))
+
+    @cached_property
+    def last_step_of_robot(self) -> NDArray[np.int64]:
+        """The step (tick) in which the last action of each robot ends, 0 without any, shape (robots,)."""
+        if self.scenario.clock == "steps":
+            return read_only(np.diff(self.first_action))
+        # Moves and waits last as long as they cost; a jump costs nothing and lasts one tick.
+        owner = np.searchsorted(self.first_action, self.jumps[:, 0], side="right") - 1
+        return read_only(self.time_of_robot + np.bincount(owner, minlength=self.scenario.robot_count))
 
     @property
     def distance_of_robot(self) -> NDArray[np.int64]:
@@ -161,8 +171,8 @@ class Plan(Record):
 
     @property
     def steps(self) -> int:
-        """Number of steps until the last robot has arrived (the makespan)."""
-        return int(np.diff(self.first_action).max(initial=0))
+        """Number of steps (ticks) until the last robot has arrived (the makespan)."""
+        return int(self.last_step_of_robot.max(initial=0))
 
     @property
     def total_time(self) -> int:

@@ -119,7 +119,9 @@ def _lengths(plan: Plan) -> Row:
     tessellation = area.tessellation
     # Euclidean costs are the distances of centres, 1000 for an edge step.
     distance = np.zeros(WAIT + 1)
-    distance[: tessellation.direction_count] = replace(tessellation, costs="euclidean").cost_of_direction / 1000
+    distance[: tessellation.direction_count] = (
+        replace(tessellation, costs="euclidean", clock="steps").cost_of_direction / 1000
+    )
     moved = np.concatenate([[0.0], np.cumsum(distance[plan.actions])])[plan.first_action]
     x, y = tessellation.centre_of_cell(*area.cell_to_xy(plan.scenario.robots))
     end_x, end_y = tessellation.centre_of_cell(*area.cell_to_xy(plan.last_cell_of_robot))
@@ -157,9 +159,11 @@ def hash_of_scenario(scenario: Scenario) -> str:
     """Return 16 hexadecimal digits that depend on all that a plan depends on: cells, rules, destinations, robots."""
     area, tessellation = scenario.area, scenario.area.tessellation
     frame = area.frame and (area.frame.cell_size, area.frame.origin, area.frame.yaw, area.frame.robot_radius)
-    rules = (scenario.waiting_cost, scenario.crossing, scenario.corners, scenario.destination_capacity)
+    rules = tuple(map(str, (scenario.waiting_cost, scenario.crossing, scenario.corners, scenario.destination_capacity)))
+    if (scenario.clock, scenario.following) != ("steps", "allow"):  # these came later
+        rules += (scenario.clock, scenario.following)
     names = (tessellation.name, tessellation.neighbourhood, tessellation.costs)
-    digest = hashlib.sha256(repr((names, area.height, area.width, frame, tuple(map(str, rules)))).encode())
+    digest = hashlib.sha256(repr((names, area.height, area.width, frame, rules)).encode())
     digest.update(np.packbits(area.barriers).tobytes())
     for cells in (scenario.destinations, scenario.robots):
         digest.update(str(cells.size).encode() + np.ascontiguousarray(cells, dtype="<i8").tobytes())
