@@ -74,7 +74,7 @@ CASES = {
     "torn image": (b"P5\n40 40\n255\n" + bytes(70), ["plan", "bad", "--destination", "0,0", *ROBOTS], "bad: the image is damaged: *"),
     "image of 10 gigapixels": (b"P5\n100000 100000\n255\n" + bytes(70), ["plan", "bad", "--destination", "0,0", *ROBOTS], "bad: an image may have at most 100000000 pixels"),
     "image without a measure": (None, ["plan", "house.pgm", *SIZE, *AIM, *ROBOTS], "house.pgm: an image has no measure: say how many metres a pixel is wide, resolution 0.05 for five centimetres (--resolution on the command line)"),
-    "radius without a cell size": (None, ["plan", "house.pgm", "--robot-radius", "0.1", "--destination", "4,4", *ROBOTS], "house.pgm: robot_radius and resolution need cell_size, the edge step of a cell in metres"),
+    "radius without a cell size": (None, ["plan", "house.pgm", "--robot-radius", "0.1", "--destination", "4,4", *ROBOTS], "house.pgm: an image has no measure: say how many metres a pixel is wide, resolution 0.05 for five centimetres (--resolution on the command line)"),
     "brightness in per cent": (None, ["plan", "house.pgm", "--threshold", "50", "--destination", "4,4", *ROBOTS], "--threshold must be a number from 0 to 1, not '50'"),
     "unknown kind of unknown": (None, [*PLAN, "--unknown", "fre"], "--unknown must be one of barrier, free, not 'fre'; did you mean 'free'?"),
     "PFM of other numbers": (b"Pf\n2 1\n-1.0\n" + np.array([0, 255], dtype="<f4").tobytes(), ["plan", "bad", "--destination", "0,0", *ROBOTS], "bad: brightness in a PFM must be a number from 0 to 1, not 255"),

@@ -1,3 +1,7 @@
+from .alignment import (
+    ALIGNS as ALIGNS,
+    cover_aligned as cover_aligned,
+)
 from .area import (
     MAX_CELLS as MAX_CELLS,
     Area as Area,
@@ -7,6 +11,10 @@ from .claim import (
     check_possible as check_possible,
     claimed as claimed,
 )
+from .clearance import (
+    least_cell_size as least_cell_size,
+    least_distance as least_distance,
+)
 from .coverage import (
     cover as cover,
     cover_polygons as cover_polygons,
@@ -14,6 +22,11 @@ from .coverage import (
 )
 from .entries import (
     entries_per_step as entries_per_step,
+)
+from .fit import (
+    Fit as Fit,
+    make_fits as make_fits,
+    round_up_size as round_up_size,
 )
 from .frame import (
     Frame as Frame,

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.areas import Area, DrawnGround
-from trihex.errors import FormatError
+from trihex.formats.areas.options import NoRoomError
 
 _SAMPLES_A_CELL = 8
 # How far behind its robots' radius the first free cell beside a wall may begin: 1.55 cells on triangles, one elsewhere.
@@ -25,7 +25,7 @@ def cells_of_exit(area: Area, where: str, exit_: Any) -> NDArray[np.int64]:
 
     Raises
     ------
-    FormatError
+    NoRoomError
         If there are none; `where` is the exit, for the message.
     """
     import shapely
@@ -44,7 +44,7 @@ def cells_of_exit(area: Area, where: str, exit_: Any) -> NDArray[np.int64]:
         return np.asarray(free[near][touched])
     behind = _row_behind(area, exit_, shapely.points(x[near], y[near]), polygons)
     if behind.size == 0:
-        raise FormatError(f"{where}: {_why_none(area, exit_, free)}")
+        raise NoRoomError(f"{where}: {_why_none(area, exit_, free)}")
     return np.sort(free[near][behind])
 
 

@@ -10,11 +10,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Area, Zone, cover_polygons, import_shapely
+from trihex.areas import Area, DrawnGround, Zone, import_shapely
 from trihex.areas.coverage import Progress
 from trihex.errors import AreaError, FormatError
 from trihex.formats.areas.exits import cells_of_exit
-from trihex.formats.areas.options import AreaOptions
+from trihex.formats.areas.options import AreaOptions, NoRoomError
 from trihex.formats.draft import Draft
 from trihex.record import Record
 
@@ -70,13 +70,8 @@ def draft_of_place(place: Place, options: AreaOptions, progress: Progress | None
     if free.area == 0:
         raise FormatError(f"{path}: there must be a polygon that is free; there is none with an area")
     west, south, east, north = free.bounds
-    area = cover_polygons(
-        free,
-        options.covering_of(path, "a place drawn by polygons", east - west, north - south),
-        obstacles=obstacles,
-        name=Path(path).stem,
-        progress=progress,
-    )
+    covering = options.covering_of(path, "a place drawn by polygons", east - west, north - south)
+    area = options.area_of(DrawnGround(free, obstacles), covering, Path(path).stem, progress)
     destinations = [
         _cells_of_points(area, [drawn], "destination")
         if drawn.shape.geom_type == "Point"
@@ -129,5 +124,6 @@ def _cells_of_points(area: Area, points: list[Drawn], what: str) -> NDArray[np.i
             try:
                 area.metres_to_cell(shape.x, shape.y)
             except AreaError as error:
-                raise FormatError(f"{where}: a {what}: {error}") from None
+                kind = NoRoomError if what == "destination" else FormatError
+                raise kind(f"{where}: a {what}: {error}") from None
         raise

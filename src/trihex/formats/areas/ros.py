@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import RasterGround, cover
+from trihex.areas import RasterGround
 from trihex.areas.coverage import Progress
 from trihex.errors import FormatError, check_choice
 from trihex.files import read_bytes
@@ -62,7 +62,7 @@ def parse_ros(text: Text, path: str | os.PathLike[str], options: AreaOptions, pr
         options.unknown == "barrier",
         shown=occupied,
     )
-    return Draft(cover(ground, covering, name=Path(path).stem, progress=progress))
+    return Draft(options.area_of(ground, covering, Path(path).stem, progress))
 
 
 def _states(

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 from pydantic import AfterValidator, Field
 
-from trihex.areas import CORNERS, COSTS, CROSSINGS, NEIGHBOURHOODS, TESSELLATIONS
+from trihex.areas import ALIGNS, CORNERS, COSTS, CROSSINGS, NEIGHBOURHOODS, TESSELLATIONS
 from trihex.formats.areas.options import UNKNOWNS
 from trihex.formats.schema import Cells, Count, Number, Points, Table, Whole, choice
 
@@ -40,6 +40,7 @@ class AreaTable(Table):
     threshold: Annotated[Number, Field(ge=0, le=1)] | None = None
     invert: bool | None = None
     resolution: Annotated[Number, Field(gt=0)] | None = None
+    align: Annotated[str, choice("it", ALIGNS)] | None = None
 
 
 class RulesTable(Table):
