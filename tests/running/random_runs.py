@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 
 from tests.strategies import random_scenario
-from trihex.areas import Zone
-from trihex.running import KINDS, OF_ZONES, Event, Sensor, Trial
+from trihex.areas import Frame, Zone
+from trihex.running import KINDS, OF_SHAPES, OF_ZONES, Event, Sensor, Trial
 
 LAST_STEP = 40
 RADII = (None, 0, 1, 2.5, 3, 5)
@@ -31,6 +31,10 @@ def random_events(rng, scenario, count):
             details["steps"] += 1
         if kind in OF_ZONES and rng.random() < 0.3:
             details = {"zone": ("west", "odd, cells", "nowhere")[rng.integers(3)]}
+        if area.frame is not None and "cell" in details and rng.random() < 0.5:
+            x, y = area.metres.centre_of_cell(area.tessellation, *details.pop("cell"))
+            points = rng.normal([x, y], 0.4, (int(rng.integers(1, 4)) if kind in OF_SHAPES else 1, 2))
+            details["metres"] = points.tolist()
         events.append(Event(int(rng.integers(1, LAST_STEP)), kind, **details))
     return events
 
@@ -41,7 +45,8 @@ def random_trial(seed, **limits):
     scenario = random_scenario(seed, **{"sides": (3, 16), **limits})
     cells = np.arange(scenario.area.cell_count)
     zones = Zone("west", cells[cells % scenario.area.width < 2]), Zone("odd, cells", cells[1::4])
-    scenario = replace(scenario, area=replace(scenario.area, zones=zones))
+    frame = Frame(0.8, (3.0, -2.0), 0.3) if seed % 2 else None
+    scenario = replace(scenario, area=replace(scenario.area, zones=zones, frame=frame))
     radius = RADII[rng.integers(len(RADII))]
     return Trial(
         scenario,

@@ -187,10 +187,13 @@ def test_events_that_make_no_sense_and_wrong_delays():
     for wrong, why in (
         (dict(step=0, kind="join", cell=(0, 0)), "step of an event must be a whole number from 1"),
         (dict(step=1, kind="jon", cell=(0, 0)), "did you mean 'join'"),
-        (dict(step=1, kind="join"), "event 'join' at step 1 takes cell, not cell=None"),
+        (dict(step=1, kind="join"), r"event 'join' at step 1 takes cell \(or metres\), not cell=None"),
         (dict(step=1, kind="leave", robot=1, cell=(0, 0)), "takes robot, not cell="),
-        (dict(step=1, kind="close", cell=(0, 0), zone="a"), "'close' at step 1 takes cell or zone, not zone='a'"),
-        (dict(step=1, kind="join", zone="a"), "takes cell, not zone='a'"),
+        (
+            dict(step=1, kind="close", cell=(0, 0), zone="a"),
+            r"'close' at step 1 takes cell or zone \(or metres\), not zone='a'",
+        ),
+        (dict(step=1, kind="join", zone="a"), r"takes cell \(or metres\), not zone='a'"),
         (dict(step=1, kind="close", zone="a\nb"), "name of a zone must be a line"),
         (dict(step=1, kind="late", robot=1, steps=0), "steps of an event"),
         (dict(step=1, kind="join", cell=(0.5, 0)), "cell of an event must be"),

@@ -77,6 +77,9 @@ from .tessellation import (
     Tessellation as Tessellation,
     tessellation_from as tessellation_from,
 )
+from .touching import (
+    shape_from as shape_from,
+)
 from .world import (
     World as World,
 )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -295,6 +296,34 @@ class Area(Record):
         if not cells:
             raise AreaError(f"zone {name!r:.80} does not exist: the area has none")
         return cells[check_choice("zone", name, cells, AreaError)]
+
+    def cells_touched(self, shape: Any) -> NDArray[np.int64]:
+        """Return the numbers of the cells that robots of the frame's radius cannot use where something stands.
+
+        By the rule that made the area: those whose star comes within the radius of it, free or not. So a robot that
+        keeps to other cells does not touch it (docs/metric.md). Ascending.
+
+        Parameters
+        ----------
+        shape : shapely geometry, or points (x, y)
+            In metres. One point is a point, two are a line, more the corners of a polygon.
+
+        Raises
+        ------
+        AreaError
+            If the area has no frame, or the shape is invalid.
+        MissingExtraError
+            If shapely is not installed.
+
+        Examples
+        --------
+        >>> area = Area("square", [[0, 0, 0]], frame=Frame(1.0, robot_radius=0.2))
+        >>> area.cells_touched([(1.5, -0.5)]).tolist(), area.cells_touched([(1.1, -0.5)]).tolist()
+        ([1], [0, 1])
+        """
+        from trihex.areas.touching import cells_touched
+
+        return cells_touched(self, shape)
 
     def name_of_cell(self, cell: int) -> str:
         """Return ``(x, y)`` as text, for messages."""

@@ -21,7 +21,7 @@ from trihex.areas.tessellation import Tessellation
 from trihex.record import read_only
 
 # Points at exactly the radius count as touched in spite of rounding; as a share of the cell size.
-_MARGIN = 1e-9
+MARGIN = 1e-9
 _PIXELS_AT_ONCE = 20_000_000
 _CELLS_AT_ONCE = 50_000
 _STARS_AT_ONCE = 5_000
@@ -137,7 +137,7 @@ def _blocked_by_raster(
     pixel = ground.resolution / covering.cell_size
     star = grid.turned(star_of_cell(covering.tessellation))
     barriers = np.empty(grid.height * grid.width, dtype=bool)
-    radius = covering.robot_radius / covering.cell_size + _MARGIN
+    radius = covering.robot_radius / covering.cell_size + MARGIN
     reach = np.hypot(star[..., 0], star[..., 1]).max() + radius
     rows_at_once = max(1, floor(_PIXELS_AT_ONCE / ((2 * reach / pixel + 2) ** 2 * grid.width)))
     raster = given(kernels.Raster, ground.occupied, pixel, ground.is_outside_occupied)
@@ -156,7 +156,7 @@ def _blocked_by_polygons(
     shapely = import_shapely()
     shapely.prepare([ground.free, *ground.walls])
     star, barriers = star_of_cell(covering.tessellation), np.empty(grid.height * grid.width, dtype=bool)
-    radius = covering.robot_radius + _MARGIN * covering.cell_size
+    radius = covering.robot_radius + MARGIN * covering.cell_size
     reach = float(np.hypot(star[..., 0], star[..., 1]).max()) * covering.cell_size + radius
     for first, last in _bands(grid.height, max(1, _CELLS_AT_ONCE // grid.width), progress):
         px, py, orientation = _cells_of_rows(covering.tessellation, grid.width, first, last)

@@ -6,12 +6,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.areas import Area, World
-from trihex.errors import AreaError, ExecutionError
-from trihex.running.events import Event
+from trihex.errors import AreaError, ExecutionError, MissingExtraError
+from trihex.running.events import OF_SHAPES, Event, Points
+from trihex.running.obstacles import Obstacles
 
 
-def cell_at(area: Area, place: tuple[int, int] | None) -> int:
+def cell_at(area: Area, place: tuple[int, int] | None, metres: Points | None = None) -> int:
     """Return the number of the cell that an event names; raises ExecutionError if it lies outside."""
+    if metres is not None:
+        try:
+            return int(area.metres_to_cell(*metres[0]))
+        except AreaError as error:
+            raise ExecutionError(str(error)) from None
     if place is None:
         raise ExecutionError("the event names no cell")
     x, y = place
@@ -20,7 +26,9 @@ def cell_at(area: Area, place: tuple[int, int] | None) -> int:
     return y * area.width + x
 
 
-def changes_of(event: Event, world: World, cell_of_robot: NDArray[np.int64]) -> dict[str, tuple[int, ...]]:
+def changes_of(
+    event: Event, world: World, cell_of_robot: NDArray[np.int64], obstacles: Obstacles
+) -> dict[str, tuple[int, ...]]:
     """Return what an event that concerns cells changes, as an `Occurrence` has it.
 
     Parameters
@@ -31,6 +39,8 @@ def changes_of(event: Event, world: World, cell_of_robot: NDArray[np.int64]) -> 
         As it is before the event.
     cell_of_robot : int64 array
         Number of the cell of each robot, -1 for those that are not in the area.
+    obstacles : Obstacles
+        What has come to stand in the world so far; brought up to date.
 
     Raises
     ------
@@ -39,13 +49,21 @@ def changes_of(event: Event, world: World, cell_of_robot: NDArray[np.int64]) -> 
     """
     area = world.area
     if event.zone is not None:
-        return _changes_of_many(event, _cells_of_zone(area, event.zone), world, cell_of_robot)
-    cell = cell_at(area, event.cell)
+        cells = _cells_of_zone(area, event.zone)
+        changes = _changes_of_many(event, cells, world, cell_of_robot)
+        obstacles.fill(changes.get("blocked", ()))
+        obstacles.clear(changes.get("freed", ()))
+        return changes
+    if event.metres is not None and event.kind in OF_SHAPES:
+        return _changes_of_shape(event, world, cell_of_robot, obstacles)
+    cell = cell_at(area, event.cell, event.metres)
     if event.kind == "barrier":
-        return {"blocked": (_check_clear(cell, world, cell_of_robot),)}
+        obstacles.fill([_check_clear(cell, world, cell_of_robot)])
+        return {"blocked": (cell,)}
     if event.kind == "clear":
         if not world.is_barrier(cell):
             raise ExecutionError(f"{area.name_of_cell(cell)} is no barrier")
+        obstacles.clear([cell])
         return {"freed": (cell,)}
     if event.kind == "open":
         return {"opened": (_check_new(cell, world),)}
@@ -53,7 +71,24 @@ def changes_of(event: Event, world: World, cell_of_robot: NDArray[np.int64]) -> 
         raise ExecutionError(f"{area.name_of_cell(cell)} is no destination")
     if event.kind == "close":
         return {"closed": (cell,)}
-    return {"closed": (cell,), "opened": (_check_new(cell_at(area, event.to), world),)}
+    return {"closed": (cell,), "opened": (_check_new(cell_at(area, event.to, event.to_metres), world),)}
+
+
+def _changes_of_shape(
+    event: Event, world: World, cell_of_robot: NDArray[np.int64], obstacles: Obstacles
+) -> dict[str, tuple[int, ...]]:
+    """Return what changes where an obstacle comes, or goes: then cells are free in which nothing else stands."""
+    area = world.area
+    try:
+        cells = set(area.cells_touched(event.metres).tolist())
+    except (AreaError, MissingExtraError) as error:
+        raise ExecutionError(str(error)) from None
+    if event.kind == "clear":
+        cells = obstacles.take(cells) - set(np.flatnonzero(area.barriers).tolist())
+        return _changes_of_many(event, cells, world, cell_of_robot)
+    changes = _changes_of_many(event, cells, world, cell_of_robot)
+    obstacles.put(cells)
+    return changes
 
 
 def _cells_of_zone(area: Area, name: str) -> set[int]:

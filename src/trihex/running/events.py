@@ -25,7 +25,11 @@ KINDS = {
 }
 # What can happen to all cells of a zone.
 OF_ZONES = ("barrier", "clear", "open", "close")
+# What is an obstacle where it is told in metres.
+OF_SHAPES = ("barrier", "clear")
+Points = tuple[tuple[float, float], ...]
 MOST_STEPS = 1_000_000
+MOST_POINTS = 10_000
 
 
 @dataclass(frozen=True)
@@ -46,6 +50,9 @@ class Event:
     zone : str, optional
         The name of a zone of the area in place of `cell`, for what happens to all of its cells that it can happen to:
         a barrier comes or goes, destinations open or close.
+    metres, to_metres : (x, y) or points, optional
+        Places in the world in place of `cell` and `to`: the cells in which they lie. As a barrier that comes or goes, a
+        point, a line of two points or a polygon of more is an obstacle: see `Area.cells_touched`.
 
     Raises
     ------
@@ -65,10 +72,18 @@ class Event:
     robot: int | None = None
     steps: int | None = None
     zone: str | None = None
+    metres: Points | None = None
+    to_metres: Points | None = None
 
     def __post_init__(self) -> None:
         check_choice("event", self.kind, KINDS, ScenarioError)
         _check_whole("step", self.step, 1)
+        for name in ("metres", "to_metres"):
+            if (value := getattr(self, name)) is not None:
+                points = _points(name, value)
+                if len(points) > 1 and (name == "to_metres" or self.kind not in OF_SHAPES):
+                    raise ScenarioError(f"{name} of event {self.kind!r} must be one point, not {len(points)}")
+                object.__setattr__(self, name, points)
         self._check_needs()
         for name in ("cell", "to"):
             if (value := getattr(self, name)) is not None:
@@ -86,18 +101,24 @@ class Event:
     def _check_needs(self) -> None:
         """Raise unless all is there that the kind needs, and nothing else."""
         needs = KINDS[self.kind]
-        given = {name for name in ("cell", "to", "robot", "steps", "zone") if getattr(self, name) is not None}
-        if given == set(needs) or (given == {"zone"} and self.kind in OF_ZONES):
+        names = ("cell", "to", "robot", "steps", "zone", "metres", "to_metres")
+        given = {name for name in names if getattr(self, name) is not None}
+        stands_for = {"metres": "cell", "to_metres": "to"}
+        plain = {stands_for.get(name, name) for name in given}
+        is_whole = len(plain) == len(given) == len(needs)
+        if (is_whole and plain == set(needs)) or (given == {"zone"} and self.kind in OF_ZONES):
             return
         words = " and ".join(needs) + " or zone" * (self.kind in OF_ZONES)
-        wrong = [f"{name}={getattr(self, name)!r:.80}" for name in sorted(given - set(needs))]
-        wrong = wrong or [f"{name}=None" for name in needs if name not in given]
-        raise ScenarioError(f"event {self.kind!r} at step {self.step} takes {words}, not {wrong[0]}")
+        words += " (or metres)" * ("cell" in needs)
+        wrong = [name for name in sorted(given) if stands_for.get(name, name) not in needs]
+        wrong = wrong or [name for name in needs if name not in plain] or sorted(given)
+        shown = " and ".join(f"{name}={getattr(self, name)!r:.80}" for name in wrong)
+        raise ScenarioError(f"event {self.kind!r} at step {self.step} takes {words}, not {shown}")
 
     @property
     def place(self) -> str:
         """Where it happens, in words."""
-        return f"{self.cell}" if self.zone is None else f"{self.zone!r}"
+        return _words(self.cell, self.metres) if self.zone is None else f"{self.zone!r}"
 
     def __str__(self) -> str:
         words = {
@@ -105,8 +126,8 @@ class Event:
             "clear": f"barrier at {self.place} goes",
             "open": f"destination opens at {self.place}",
             "close": f"destination closes at {self.place}",
-            "move": f"destination moves from {self.cell} to {self.to}",
-            "join": f"robot joins at {self.cell}",
+            "move": f"destination moves from {self.place} to {_words(self.to, self.to_metres)}",
+            "join": f"robot joins at {self.place}",
             "leave": f"robot {self.robot} leaves",
             "break": f"robot {self.robot} breaks down",
             "late": f"robot {self.robot} is late by {self.steps} steps",
@@ -168,3 +189,26 @@ def _pair(parameter: str, value: Any) -> tuple[int, int]:
     except (TypeError, ValueError, OverflowError):
         pass
     raise ScenarioError(f"{parameter} of an event must be (x, y), two whole numbers, not {value!r:.80}")
+
+
+def _points(parameter: str, value: Any) -> Points:
+    """Return one pair (x, y) of metres, or several, as pairs of floats."""
+    try:
+        pairs = np.asarray(value, dtype=np.float64)
+    except (TypeError, ValueError):
+        pairs = np.empty(0)
+    pairs = pairs[None] if pairs.shape == (2,) else pairs
+    if pairs.ndim != 2 or pairs.shape[1] != 2 or not 0 < len(pairs) <= MOST_POINTS or not (abs(pairs) <= 1e9).all():
+        raise ScenarioError(
+            f"{parameter} of an event must be a point (x, y) or up to {MOST_POINTS} of them, numbers of at most 1e9, "
+            f"not {value!r:.80}"
+        )
+    return tuple((float(x), float(y)) for x, y in pairs)
+
+
+def _words(cell: tuple[int, int] | None, metres: Points | None) -> str:
+    """Return a cell or a place in metres as text."""
+    if metres is None:
+        return f"{cell}"
+    more = f" and {len(metres) - 1} more points" if len(metres) > 1 else ""
+    return f"({metres[0][0]:g}, {metres[0][1]:g}) metres{more}"

@@ -19,6 +19,7 @@ from trihex.running.events import Event, Occurrence
 from trihex.running.execution import Execution
 from trihex.running.knowledge import Knowledge
 from trihex.running.log import Log
+from trihex.running.obstacles import Obstacles
 from trihex.running.run import GOING, Run
 from trihex.running.sensing import Sensor
 
@@ -82,7 +83,7 @@ class Trial:
         self.area, self.layout = scenario.area, scenario.area.layout
         known = scenario if sensor is None else _unknown(scenario)
         self.execution = Execution(known, planner, aside=aside, replan=replan, budget=budget)
-        self._world = World(scenario)
+        self._world, self._obstacles = World(scenario), Obstacles()
         self._knowledge = Knowledge(self._world, sensor)
         self._events = sorted(events, key=lambda event: event.step)
         self._occurrences: list[Occurrence] = []
@@ -233,17 +234,18 @@ class Trial:
         """Return the cells that an event changes, after what it does to robots is done; raise an error if it cannot."""
         robot = -1 if event.robot is None else event.robot
         if event.kind == "join":
-            self._join(cell_at(self.area, event.cell), event.step - 1)
+            self._join(cell_at(self.area, event.cell, event.metres), event.step - 1)
         elif event.kind == "leave":
             self.execution.leave(robot)
         elif event.kind == "break":
             self._note_repair(self.execution.break_down(robot))
-            return {"blocked": (int(self.execution.cell_of_robot[robot]),)}
+            self._obstacles.fill(own := [int(self.execution.cell_of_robot[robot])])
+            return {"blocked": tuple(own)}
         elif event.kind == "late":
             self.execution.check_going(robot)
             self._log.delay(robot, event.step + (event.steps or 1) - 1)
         else:
-            return changes_of(event, self._world, self.execution.cell_of_robot)
+            return changes_of(event, self._world, self.execution.cell_of_robot, self._obstacles)
         return {}
 
     def _join(self, cell: int, step: int) -> None:

@@ -11,16 +11,17 @@ from pydantic import Field
 
 from trihex.errors import FormatError, TrihexError, check_choice, check_many
 from trihex.files import new_file, suffix_of
-from trihex.formats.schema import Table, check_document, choice
+from trihex.formats.schema import Number, Points, Table, check_document, choice
 from trihex.formats.text import Text, read_text
 from trihex.formats.toml import complaint, parse_toml
 from trihex.running import KINDS, MOST_STEPS, Event
 
 SUFFIXES = (".csv", ".toml")
-COLUMNS = ("step", "event", "x", "y", "to_x", "to_y", "robot", "steps", "zone")
+COLUMNS = ("step", "event", "x", "y", "to_x", "to_y", "robot", "steps", "zone", "metres", "to_metres")
 MAX_BYTES = 2**26
 
 _Step = Annotated[int, Field(ge=1, le=MOST_STEPS)]
+_Point = Annotated[list[Number], Field(min_length=2, max_length=2)]
 _Cell = Annotated[list[Annotated[int, Field(ge=-(2**30), le=2**30)]], Field(min_length=2, max_length=2)]
 
 
@@ -34,6 +35,8 @@ class EventTable(Table):
     robot: Annotated[int, Field(ge=0, le=MOST_STEPS)] | None = None
     steps: _Step | None = None
     zone: str | None = None
+    metres: Points | _Point | None = None
+    to_metres: _Point | None = None
 
 
 class EventsTable(Table):
@@ -45,9 +48,11 @@ class EventsTable(Table):
 def read_events(path: str | os.PathLike[str]) -> tuple[Event, ...]:
     """Return the events of a file, in its order.
 
-    CSV has a header with `step`, `event` and those of `x`, `y`, `to_x`, `to_y`, `robot`, `steps`, `zone` that are
-    needed, in any order; what an event does not need stays empty. TOML has a table ``[[event]]`` for each, with the
-    keys `step`, `event` and `cell`, `to` (each ``[x, y]``), `robot`, `steps`, `zone` (the name of an exit).
+    CSV has a header with `step`, `event` and those of `x`, `y`, `to_x`, `to_y`, `robot`, `steps`, `zone`, `metres`,
+    `to_metres` that are needed, in any order; what an event does not need stays empty. TOML has a table ``[[event]]``
+    for each, with the keys `step`, `event` and `cell`, `to` (each ``[x, y]``), `robot`, `steps`, `zone` (the name of an
+    exit), `metres`, `to_metres` (``[x, y]``; ``[[x, y], ...]`` for an obstacle). In CSV places in metres are written as
+    ``3.2 -1``, several as ``3.2 -1; 4 -1; 4 0``.
 
     Raises
     ------
@@ -67,7 +72,8 @@ def _from_toml(text: Text, path: str | os.PathLike[str]) -> tuple[Event, ...]:
     for number, one in enumerate(table.event if table is not None and not mistakes else ()):
         try:
             cell, to = (None if place is None else (place[0], place[1]) for place in (one.cell, one.to))
-            events.append(Event(one.step, one.event, cell, to, one.robot, one.steps, one.zone))
+            others = (one.robot, one.steps, one.zone, one.metres, one.to_metres)
+            events.append(Event(one.step, one.event, cell, to, *others))  # type: ignore[arg-type]
         except TrihexError as error:
             mistakes.append(f"event.{number}: {error}")
     if mistakes:
@@ -102,7 +108,7 @@ def _event_of(row: dict[str, str]) -> Event:
     """Return the event of a row of text."""
     numbers: dict[str, Any] = {}
     for name, text in row.items():
-        if name not in ("event", "zone") and text.strip():
+        if name not in ("event", "zone", "metres", "to_metres") and text.strip():
             try:
                 numbers[name] = int(text) if len(text) <= 20 else None
             except ValueError:
@@ -124,7 +130,21 @@ def _event_of(row: dict[str, str]) -> Event:
         numbers.get("robot"),
         numbers.get("steps"),
         row.get("zone", "").strip() or None,
+        _points_of("metres", row),
+        _points_of("to_metres", row),
     )
+
+
+def _points_of(name: str, row: dict[str, str]) -> Any:
+    """Return the points of text such as 3.2 -1; 4 -1, None if there is none."""
+    text = row.get(name, "").strip()
+    try:
+        points = [tuple(float(number) for number in pair.split()) for pair in text.split(";") if text]
+    except ValueError:
+        points = [()]
+    if any(len(pair) != 2 for pair in points):
+        raise FormatError(f"{name} must be X Y in metres, or several as X Y; X Y, not {text[:40]!r}")
+    return points or None
 
 
 def write_events(events: tuple[Event, ...], path: str | os.PathLike[str]) -> None:
@@ -137,4 +157,5 @@ def write_events(events: tuple[Event, ...], path: str | os.PathLike[str]) -> Non
         for event in events:
             places = [*(event.cell or ("", "")), *(event.to or ("", ""))]
             others = ["" if value is None else value for value in (event.robot, event.steps, event.zone)]
-            writer.writerow([event.step, event.kind, *places, *others])
+            metres = ["; ".join(f"{x!r} {y!r}" for x, y in own or ()) for own in (event.metres, event.to_metres)]
+            writer.writerow([event.step, event.kind, *places, *others, *metres])

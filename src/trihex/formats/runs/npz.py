@@ -31,6 +31,7 @@ _ENTRIES: Entries = {
     "events": ("i", 2),  # step, kind, x, y, to_x, to_y, robot, steps
     "refusals": ("u", 1),  # UTF-8, a line for each event
     "zones_of_events": ("u", 1),  # the same
+    "metres_of_events": ("f", 2),  # event, 0 or, of to_metres, 1, x, y
     "changes": ("i", 2),  # event, which of `_CHANGES`, cell
     "starts": ("i", 1),
     "joined": ("i", 1),
@@ -69,6 +70,15 @@ def write_run(run: Run, path: str | os.PathLike[str], *, progress: Callable[[int
             "zones_of_events": np.frombuffer(
                 "\n".join(one.event.zone or "" for one in run.occurrences).encode(), dtype=np.uint8
             ),
+            "metres_of_events": np.array(
+                [
+                    (number, which, *point)
+                    for number, one in enumerate(run.occurrences)
+                    for which, points in enumerate((one.event.metres, one.event.to_metres))
+                    for point in points or ()
+                ],
+                dtype=np.float64,
+            ).reshape(-1, 4),
             "changes": np.array(changes, dtype=np.int64).reshape(-1, 3),
             "starts": run.robots,
             "joined": run.joined,
@@ -131,14 +141,28 @@ def _occurrences(arrays: dict[str, Any], cells: int, path: object) -> tuple[Occu
         own = changed[number]
         own[_CHANGES[which]] = (*own.get(_CHANGES[which], ()), cell)
     result = []
-    for (step, kind, *numbers), refusal, zone, own in zip(events.tolist(), refusals, zones, changed, strict=True):
+    places = _places(arrays["metres_of_events"], len(events), path)
+    rows = zip(events.tolist(), refusals, zones, places, changed, strict=True)
+    for (step, kind, *numbers), refusal, zone, metres, own in rows:
         if not 0 <= kind < len(KINDS):
             raise FormatError(f"{path}: there is no event of kind {kind}")
         x, y, to_x, to_y = numbers[:4]
         robot, steps = (None if number == _NONE else number for number in numbers[4:])
         cell, to = (None if x == _NONE else (x, y)), (None if to_x == _NONE else (to_x, to_y))
-        result.append(Occurrence(Event(step, list(KINDS)[kind], cell, to, robot, steps, zone or None), refusal, **own))
+        event = Event(step, list(KINDS)[kind], cell, to, robot, steps, zone or None, *metres)
+        result.append(Occurrence(event, refusal, **own))
     return tuple(result)
+
+
+def _places(table: NDArray[np.float64], count: int, path: object) -> list[list[Any]]:
+    """Return `metres` and `to_metres` of each event."""
+    places: list[list[Any]] = [[None, None] for _ in range(count)]
+    for number, which, x, y in table.tolist() if table.shape[1] == 4 else [(-1, 0, 0, 0)]:
+        if not 0 <= number < count or which not in (0, 1):
+            raise FormatError(f"{path}: metres_of_events must hold an event, 0 or 1, x and y in each row")
+        own = places[int(number)]
+        own[int(which)] = [*(own[int(which)] or []), (x, y)]
+    return places
 
 
 def _lines(text: NDArray[np.uint8], count: int) -> list[str]:
