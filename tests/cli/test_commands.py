@@ -23,7 +23,18 @@ from trihex.planners import PLANNERS
 WORLD = "D..B...\n.......\nb.aB..c\n"
 SUMMARY_KEYS = [
     *("area", "tessellation", "neighbourhood", "costs", "corners", "crossing", "destination_capacity", "cells"),
-    *("free_cells", "robots", "arrived", "unreachable", "seed", "planner", "waiting_cost", "steps", "total_time"),
+    *(
+        "free_cells",
+        "robots",
+        "arrived",
+        "unreachable",
+        "arrivals_of_exit",
+        "seed",
+        "planner",
+        "waiting_cost",
+        "steps",
+        "total_time",
+    ),
     *("total_distance", "total_waiting", "longest_time", "lower_bound", "lower_bound_name", "gap", "optimal"),
     *("conflicts", "corner_moves", "squeezing_moves", "seconds"),
 ]

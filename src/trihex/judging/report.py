@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Claim
+from trihex.areas import Claim, count_by_zone
 from trihex.bounds import LowerBound, distance_bound, make_lower_bound
 from trihex.errors import check_type
 from trihex.fields import NScheme, make_n_scheme
@@ -97,6 +97,12 @@ class Report(Record):
         """Number of robots that arrive."""
         return int(np.count_nonzero(self.plan.arrived))
 
+    @cached_property
+    def arrivals_of_exit(self) -> dict[str, int]:
+        """How many robots arrive in each zone of the area, by its name."""
+        plan = self.plan
+        return count_by_zone(plan.scenario.area.zones, plan.last_cell_of_robot[plan.arrived])
+
     @property
     def is_complete(self) -> bool:
         """Whether every robot that can arrive does."""
@@ -148,6 +154,7 @@ class Report(Record):
             "robots": scenario.robot_count,
             "arrived": self.arrived_count,
             "unreachable": int(self.unreachable_robots.size),
+            "arrivals_of_exit": self.arrivals_of_exit,
             "seed": scenario.seed,
             "planner": plan.planner,
             "waiting_cost": int(scenario.waiting_cost),
