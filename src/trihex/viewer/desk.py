@@ -30,6 +30,7 @@ from trihex.running import Run
 from trihex.viewer import requests as ask
 from trihex.viewer.bundle import Bundle, decode, encode
 from trihex.viewer.call import TICK, Call, CancelledError, Send
+from trihex.viewer.compiling import prepare_for
 from trihex.viewer.document import document_of
 from trihex.viewer.exports import export
 from trihex.viewer.folder import Folder, references_of
@@ -136,6 +137,7 @@ class Desk:
 
     def _generate(self, request: ask.Generate, call: Call) -> Bundle:
         check_choice("generator", request.generator, ["empty", *GENERATORS], FormatError)
+        prepare_for(call, *(("area",) if request.generator in ("caves", "maze") else ()))
         if request.generator == "empty":
             make, options = GENERATORS["random"], {"density": 0.0}
         else:
@@ -146,11 +148,17 @@ class Desk:
         return _drafted(Draft(area))
 
     def _scatter(self, request: ask.Scatter, call: Call) -> Bundle:
-        draft = _drawn(replace(call.draft(request), robots=None, random_count=request.count, seed=request.seed))
-        return _drafted(draft)
+        draft = replace(call.draft(request), robots=None, random_count=request.count, seed=request.seed)
+        has_destination = draft.destinations is not None and draft.destinations.size > 0
+        prepare_for(
+            call, "n_scheme", scenario=replace(draft, random_count=None).complete() if has_destination else None
+        )
+        return _drafted(_drawn(draft))
 
     def _fields(self, request: ask.Fields, call: Call) -> Bundle:
-        n_scheme = self.shelf.n_scheme(call.scenario(request))
+        scenario = call.scenario(request)
+        prepare_for(call, "d_scheme", scenario=scenario)
+        n_scheme = self.shelf.n_scheme(scenario)
         directions = make_d_scheme(n_scheme).directions
         arrays: dict[str, NDArray[Any]] = {"distance": n_scheme.distance, "directions": directions}
         return Bundle({"unreachable": int(n_scheme.unreachable_robots.size)}, arrays)
@@ -163,6 +171,7 @@ class Desk:
                 f"generations are shown one by one in areas of at most {MAX_AUTOMATON_CELLS} cells, not "
                 f"{scenario.area.cell_count}; the N-scheme itself is shown in any"
             )
+        prepare_for(call, "generations")
         counts: list[int] = []
         cells: list[NDArray[np.int32]] = []
         values: list[NDArray[np.int32]] = []
@@ -189,6 +198,8 @@ class Desk:
             tessellation = replace(own, name=request.tessellation)
             draft = replace(draft, area=draft.area.with_tessellation(tessellation))
         scenario = draft.complete()
+        check_choice("planner", request.planner, PLANNERS, FormatError)
+        prepare_for(call, request.planner, "audit", "page", scenario=scenario)
         seconds: dict[str, float] = {}
         begin = perf_counter()
         n_scheme = self.shelf.n_scheme(scenario)
@@ -202,6 +213,7 @@ class Desk:
     def _live(self, request: ask.Live, call: Call) -> Bundle:
         check_choice("planner", request.planner, PLANNERS, FormatError)
         scenario = call.scenario(request)
+        prepare_for(call, "trial", *((request.planner,) if request.replan else ()), scenario=scenario)
         live = Live(scenario, request)
         name = self.shelf.put_live(live)
         first = live.advance(ask.Advance(op="advance", live=name, steps=0))
@@ -241,6 +253,7 @@ class Desk:
         report = self.shelf.report(request.plan)
         scenario = report.plan.scenario
         if not report.optimal:
+            prepare_for(call, "bound", scenario=scenario)
             n_scheme = self.shelf.n_scheme(scenario)
             bound = self.shelf.optimum(scenario) or make_lower_bound(n_scheme, progress=call.progress("bounding"))
             report = replace(report, bound=bound)
@@ -249,6 +262,7 @@ class Desk:
 
     def _shown(self, plan: Plan, seconds: dict[str, float], call: Call) -> Bundle:
         """Return the plan with the bounds that are had at once; the page asks for a better one while it plays."""
+        prepare_for(call, "audit", "page", scenario=plan.scenario)
         n_scheme = self.shelf.n_scheme(plan.scenario)
         begin = perf_counter()
         audit = audit_plan(plan, progress=call.progress("checking"))

@@ -31,6 +31,7 @@ export class App {
   constructor(root, settings, host, first) {
     Object.assign(this, { root, settings, host });
     this.doc = null;
+    this.making = null; // settles when the document that is being made is there
     this.runs = [null, null]; // plans: for the document, and beside it
     this.listeners = new AbortController();
     this.isClosed = false;
@@ -41,7 +42,7 @@ export class App {
     this.theme.apply();
     this.tools.choose(host ? "wall" : "move");
     if (first) this.take(first);
-    else this.draws.begin();
+    else this.make(this.draws.begin());
   }
 
   #makeParts() {
@@ -98,6 +99,20 @@ export class App {
   get fraction() { return this.live ? this.live.fraction : this.clock.at - this.clock.step; }
   get request() { return { document: this.doc.header }; }
 
+  // Make another document: what needs one waits until it is there.
+  async make(work) {
+    const making = this.making = work.finally(() => { if (this.making === making) this.making = null; });
+    return making;
+  }
+
+  // Until the document is there that is being made.
+  async ready(what) {
+    while (this.making) {
+      this.say(`${what} as soon as the area and its robots are there.`);
+      await this.making;
+    }
+  }
+
   say(words, isWarning) { this.status.say(words, isWarning); }
   ask(header, arrays, words, onPart) { return this.questions.ask(header, arrays, words, onPart); }
   leaveLive() { this.livePanel?.leave(); }
@@ -122,7 +137,7 @@ export class App {
     else this.set(doc, [run, beside]);
     if (!run) return;
     this.tools.choose("move");
-    this.say("Press Play.");
+    this.say(this.#wordsOf(run));
     this.planning?.bound();
   }
 
@@ -144,7 +159,9 @@ export class App {
   #travel(find) {
     this.leaveLive();
     const state = find({ doc: this.doc, runs: this.runs });
-    if (state) this.set(state.doc, state.runs);
+    if (!state) return;
+    this.say("");
+    this.set(state.doc, state.runs);
   }
 
   // Show another document and its plans, and drop what belonged to the one before.
@@ -179,8 +196,11 @@ export class App {
       const missing = this.missing();
       if (!status.isWarning || !missing) this.say(missing || "Press Plan to find paths for all robots.");
     }
-    if (runs[0] && !status.text) this.say("Press Play.");
+    if (runs[0] && !status.text) this.say(this.#wordsOf(runs[0]));
   }
+
+  // What there is to say of a plan that has come.
+  #wordsOf({ summary }) { return this.planning ? this.planning.wordsOf(summary) : "Press Play."; }
 
   showNumbers() {
     this.results.show();

@@ -41,7 +41,7 @@ export class Draws {
   }
 
   async generate(wish) {
-    const answer = await this.#made(wish);
+    const answer = await this.app.make(this.#made(wish));
     if (!answer) return;
     this.count.lastChild.value = Math.max(1, Math.min(200, Math.round((wish.height * wish.width) / 25)));
     this.app.take(answer);
@@ -58,9 +58,10 @@ export class Draws {
 
   async scatter() {
     const { app } = this;
+    await app.ready("Robots are drawn");
     app.leaveLive();
     const { doc } = app, count = Number(chosenIn(this.count)), seed = Number(chosenIn(this.seed));
-    const robots = await this.#robots(count, seed);
+    const robots = await app.make(this.#robots(count, seed));
     if (robots && app.doc === doc) app.change({ robots, header: { ...doc.header, seed } });
   }
 

@@ -15,6 +15,7 @@ const TIMES = "Time t of a robot is the cost of its moves d and of its waits w. 
 const KEYS = [
   ["Space", "play, pause"],
   [", .", "step back, forward"],
+  ["Home End", "to the start, to the end"],
   ["[ ]", "slower, faster"],
   ["+ − 0", "zoom in, out, show all"],
   ["P", "plan"],

@@ -40,7 +40,9 @@ export class LivePanel {
   toggle() { return this.run ? this.leave() : this.#start(); }
 
   async #start() {
-    const { app } = this, missing = app.missing();
+    const { app } = this;
+    await app.ready("Robots run");
+    const missing = app.missing();
     if (missing) return app.say(missing, true);
     const { doc, runs, fields: known } = app, wish = this.#wish;
     app.growing.end();

@@ -76,7 +76,8 @@ export class Opening {
   #openName(name, wish) {
     const { app } = this;
     app.leaveLive();
-    return this.#opened({ op: "open", name, in_folder: true, ...wish, ...app.request }, arraysOf(app.doc));
+    const request = { op: "open", name, in_folder: true, ...wish, ...app.request };
+    return app.make(this.#opened(request, arraysOf(app.doc)));
   }
 
   async openFile(file, wish = {}) {
@@ -87,7 +88,7 @@ export class Opening {
     app.leaveLive();
     const content = new Uint8Array(await file.arrayBuffer());
     const request = { op: "open", name, in_folder: false, ...wish, ...app.request };
-    return this.#opened(request, { ...arraysOf(app.doc), content });
+    return app.make(this.#opened(request, { ...arraysOf(app.doc), content }));
   }
 
   async #opened(request, arrays) {

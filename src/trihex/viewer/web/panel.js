@@ -11,9 +11,10 @@ export function layOut(app) {
   return h("div", { class: "trihex" }, bar.element, main, dialog.element);
 }
 
-function stageOf({ status, stage, readout, clock }) {
+function stageOf({ status, questions, stage, readout, clock }) {
+  const head = h("div", { class: "head" }, status.element, questions.element);
   const under = h("div", { class: "under" }, readout.element, stage.legend.element, stage.zoomButtons);
-  return h("section", { class: "stage", "aria-label": "Picture" }, status.element,
+  return h("section", { class: "stage", "aria-label": "Picture" }, head,
     h("div", { class: "view" }, stage.element), under, clock.element);
 }
 

@@ -25,6 +25,7 @@ function optionIn(input, usual) {
 export class Planning {
   constructor(app) {
     this.app = app;
+    this.asked = null; // the plan that is on its way: { doc, wish }
     const { planners, tessellations } = app.settings, names = Object.keys(planners);
     this.first = select("Planner", names, () => this.#showOptions());
     this.first.lastChild.value = names.includes("fcost") ? "fcost" : names[0];
@@ -35,7 +36,7 @@ export class Planning {
     this.endButton = button("One picture", () => this.endCompare(), { hidden: true });
     this.element = section("Plan",
       row(this.first, button("Plan", () => this.plan(0), { class: "primary", title: "P" })), this.options,
-      grid(this.beside, this.cells), row(button("Compare", () => this.plan(1)), this.endButton), app.questions.element);
+      grid(this.beside, this.cells), row(button("Compare", () => this.plan(1)), this.endButton));
     this.#showOptions();
   }
 
@@ -66,6 +67,7 @@ export class Planning {
   // Plan for the document (0), or beside it (1).
   async plan(which) {
     const { app } = this;
+    await app.ready("Plans are made");
     app.leaveLive();
     const missing = app.missing();
     if (missing) return app.say(missing, true);
@@ -73,9 +75,12 @@ export class Planning {
       await this.plan(0);
       if (!app.runs[0]) return;
     }
-    const { doc } = app, request = this.#request(which);
+    const { doc } = app, request = this.#request(which), wish = JSON.stringify([which, request]);
+    if (app.job && this.asked?.doc === doc && this.asked.wish === wish) return; // it is on its way
     app.clock.pause();
+    this.asked = { doc, wish };
     const answer = await app.ask(request, arraysOf(doc), "Planning…");
+    if (this.asked?.wish === wish) this.asked = null;
     if (!answer || app.doc !== doc) return;
     // The plan plays on the very document of the page, so that an edit is noticed.
     const run = runOf(answer, which ? null : doc);
@@ -88,7 +93,8 @@ export class Planning {
     app.tools.choose("move");
     app.results.element.scrollIntoView({ block: "nearest" });
     this.bound();
-    if (run === app.runs[which]) this.#tell(run.summary);
+    const { summary } = run;
+    if (run === app.runs[which]) app.say(this.wordsOf(summary), summary.conflicts > 0);
   }
 
   #request(which) {
@@ -97,11 +103,12 @@ export class Planning {
     return which && tessellation !== SAME_CELLS ? { ...request, tessellation } : request;
   }
 
-  #tell({ planner, total_time: total, optimal, unreachable, conflicts }) {
+  // What there is to say of a plan, and what to do next.
+  wordsOf({ planner, total_time: total, optimal, unreachable, conflicts }) {
     const stranded = unreachable ? ` ${plural(unreachable, "robot")} cannot arrive.` : "";
     const unsafe = conflicts ? ` ${plural(conflicts, "conflict")}!` : "";
     const words = `${title(planner || "plan")}: total time ${number(total)}${optimal ? ", proven optimal" : ""}.`;
-    this.app.say(`${words}${stranded}${unsafe} Press Play.`, unsafe !== "");
+    return `${words}${stranded}${unsafe} Press Play.`;
   }
 
   // Better lower bounds take longer than plans: they are asked for while the plan is on the page already. Where the
