@@ -10,6 +10,9 @@ export const packed = ([r, g, b]) => (255 << 24) | (b << 16) | (g << 8) | r;
 export const css = ([r, g, b], a = 1) => `rgba(${r},${g},${b},${a})`;
 export const isLight = ([r, g, b]) => 0.299 * r + 0.587 * g + 0.114 * b > 140;
 
+// A colour so far on the way from one to another.
+export const between = (one, other, share) => one.map((band, k) => Math.round(band + (other[k] - band) * share));
+
 // Mix two packed colours; share 0..255 of the second.
 export function mix(one, other, share) {
   const keep = 255 - share;

@@ -25,7 +25,7 @@ export class Legend {
     const entries = [["barrier", "barrier", "cell"], ["destination", "destination"]];
     if (live?.known) entries.push(["fog", "not seen", "cell"], ["fog_barrier", "barrier not seen", "cell"]);
     if (live) {
-      entries.push(["moving", "moving"], ["waiting", "waiting"]);
+      entries.push(["moving", "moving"], ["waiting", "waiting"], ["final", "arriving"]);
       if (live.delays) entries.push(["late", "late"]);
       if (live.last.cut_off) entries.push(["stranded", "cut off"]);
     } else if (run) entries.push(["moving", "moving"], ["waiting", "waiting"], ["final", "arriving"]);

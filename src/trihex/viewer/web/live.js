@@ -101,6 +101,7 @@ export class Live {
     const { world_cells: cells, world, distance_cells: farther, distance } = arrays, { last } = this;
     this.last = header;
     for (let i = 0; i < farther.length; i++) this.distance[farther[i]] = distance[i];
+    if (farther.length) this.app.field.forget();
     if (cells.length) this.#adoptWorld(cells, world);
     this.runners.move(this.doc, arrays.cells, arrays.sets, isStep ? header.step - this.shownStep : 0);
     this.doc = { ...this.doc, robots: this.runners.places() };

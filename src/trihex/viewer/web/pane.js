@@ -1,7 +1,7 @@
 // Pane: one canvas, cells below, robots above.
 
 import { NOT_REACHED, shapeOf, centreOf } from "./documents.js";
-import { DARK, LIGHT, packed, mix } from "./colours.js";
+import { DARK, LIGHT, between, packed, mix } from "./colours.js";
 import { darkenBarriers, drawGround } from "./ground.js";
 import { drawMarks } from "./marks.js";
 import { plotRobots } from "./robots.js";
@@ -40,6 +40,7 @@ export class Pane {
     this.isStale = { map: true, base: true, colours: true };
     this.isRough = false; // while a hand moves the picture
     this.sprites = new Map();
+    this.colouring = null; // the palette, and what it depends on
   }
 
   resize(width, height) {
@@ -138,8 +139,15 @@ export class Pane {
     if (dx || dy) this.pan(dx, dy);
   }
 
+  // The colours of now; a field is paler where there are robots to be seen on it.
   palette() {
-    return { ...this.colours, ...(this.options.dark ? DARK : LIGHT) };
+    const { options: { dark }, robots } = this, isPale = robots?.count > 0, key = `${dark} ${isPale}`;
+    if (this.colouring?.key === key) return this.colouring.palette;
+    const plain = { ...this.colours, ...(dark ? DARK : LIGHT) }, { free } = plain;
+    const pale = (shade) => between(shade, free, dark ? 0.6 : 0.5);
+    const palette = isPale ? { ...plain, distance: plain.distance.map(pale) } : plain;
+    this.colouring = { key, palette };
+    return palette;
   }
 
   #map() {

@@ -123,10 +123,15 @@ export class Stage {
   }
 
   // The world of a live run has changed, its cells or only its robots.
-  showWorld({ doc, known }, isOther) {
-    const [pane] = this.panes;
+  showWorld({ doc, known, distance }, isOther) {
+    const [pane] = this.panes, { field } = this.app;
     pane.take({ doc, known });
-    if (isOther) pane.changed("base");
+    if (!isOther) return;
+    pane.changed("base");
+    const most = field.isShown ? field.farthest(distance) : pane.options.most;
+    if (most === pane.options.most) return;
+    pane.take({ options: { ...pane.options, most } });
+    this.legend.show();
   }
 
   #showBeside() {
