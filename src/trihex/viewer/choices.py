@@ -8,6 +8,7 @@ from trihex.areas import CORNERS, COSTS, CROSSINGS, GENERATORS, NEIGHBOURHOODS, 
 from trihex.planners import PLANNERS, options_of
 from trihex.viewer.exports import EXPORTS
 from trihex.viewer.folder import SUFFIXES
+from trihex.viewer.hints import planner_hints
 
 
 def choices() -> dict[str, Any]:
@@ -23,6 +24,7 @@ def choices() -> dict[str, Any]:
         "corners": CORNERS,
         "generators": ["empty", *GENERATORS],
         "planners": {name: options_of(name) for name in PLANNERS},
+        "hints": planner_hints(),
         "exports": {what: {"suffixes": suffixes, "needs": needs} for what, (suffixes, needs) in EXPORTS.items()},
         "suffixes": SUFFIXES,
     }

@@ -5,6 +5,8 @@ import { button } from "./controls.js";
 
 const SPEEDS = [0.5, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96]; // steps per second
 
+const HINT_OF_STEP = "The step that is shown, of all steps: in each, every robot moves or waits.";
+
 export class Clock {
   constructor(app) {
     this.app = app;
@@ -14,7 +16,7 @@ export class Clock {
     this.playButton = button("Play", () => this.toggle(), { class: "primary play", title: "Space" });
     this.scrubber = h("input", { type: "range", min: 0, max: 0, value: 0, step: "any", class: "scrub",
       "aria-label": "Step", oninput: () => this.seek(Number(this.scrubber.value)) });
-    this.text = h("output", { class: "clock" });
+    this.text = h("output", { class: "clock", title: HINT_OF_STEP });
     this.speed = h("input", { type: "range", min: 0, max: SPEEDS.length - 1, value: 5,
       "aria-label": "Steps per second", oninput: () => this.setSpeed(SPEEDS[this.speed.value]) });
     this.speedText = h("span", { class: "unit" });

@@ -7,6 +7,7 @@ import { arraysOf } from "./documents.js";
 // What those see who open the viewer without a file.
 const FIRST = { generator: "rooms", tessellation: "hexagonal", height: 32, width: 48, seed: 1 };
 const FIRST_ROBOTS = 60;
+const EMPTY = "empty"; // a generator that draws nothing
 
 // The free cell nearest to the middle.
 function middleOf({ barriers, width, height }) {
@@ -27,10 +28,12 @@ export class Draws {
   // Ask which area to make.
   open() {
     const { app } = this, { generators, tessellations } = app.settings;
-    const kind = select("Kind", generators, () => {}), cells = select("Cells", tessellations, () => {});
+    const kind = select("Kind", generators, () => { seed.hidden = chosenIn(kind) === EMPTY; });
+    const cells = select("Cells", tessellations, () => {});
     const side = { min: 1, max: 4096 }, width = numberField("Width", 48, side);
     const height = numberField("Height", 32, side), seed = numberField("Seed", 1, { min: 0 });
     cells.lastChild.value = app.doc.header.tessellation;
+    seed.hidden = chosenIn(kind) === EMPTY; // nothing is drawn by chance
     const make = () => {
       app.dialog.close();
       this.generate({ generator: chosenIn(kind), tessellation: chosenIn(cells), width: Number(chosenIn(width)),

@@ -1,6 +1,7 @@
 // Hand: pointers on the panes, and what they do there with a tool.
 
 import { HIDDEN, Still } from "./playback.js";
+import { nameOfCell } from "./names.js";
 import { pointOfRobot } from "./robots.js";
 import { Stroke, brushed, isSameDocument } from "./stroke.js";
 
@@ -208,7 +209,7 @@ export class Hand {
       return app.edit(after);
     }
     app.refresh();
-    const [cell] = stroke.touched, place = `(${cell % doc.width}, ${Math.floor(cell / doc.width)})`;
+    const [cell] = stroke.touched, place = nameOfCell(doc, cell);
     if (cell === undefined || !doc.barriers[cell] || stroke.kind === "wall") return;
     app.say(`Cell ${place} is a barrier: erase it first.`, true);
   }

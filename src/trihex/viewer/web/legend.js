@@ -4,6 +4,8 @@ import { h, number } from "./words.js";
 import { css } from "./colours.js";
 import { STRANDED } from "./playback.js";
 
+const TO_GO = "The least cost of a way to a destination, in time units, for a robot that nobody is in the way of.";
+
 export class Legend {
   constructor(app) {
     this.app = app;
@@ -41,6 +43,6 @@ export class Legend {
     if (!pane.values) return [];
     const ramp = h("i", { class: "ramp" }), shades = [0, 64, 128, 192, 255].map((i) => css(palette.distance[i]));
     ramp.style.background = `linear-gradient(to right, ${shades.join(",")})`;
-    return [h("span", {}, "0 ", ramp, ` ${number(pane.options.most)} to go`)];
+    return [h("span", { title: TO_GO }, "0 ", ramp, ` ${number(pane.options.most)} to go`)];
   }
 }

@@ -24,6 +24,7 @@ export class LivePanel {
     this.replan = h("input", { type: "checkbox" });
     this.fields = grid(this.planner, this.sense, this.late, this.budget, check(this.sight, "line of sight"),
       check(this.replan, "plan at each change"));
+    this.#explain();
     this.button = button("Run live", () => this.toggle(), { class: "primary", title: "L" });
     this.keepButton = button("Keep this world", () => this.keep(), { hidden: true, title: HINT_OF_KEEPING });
     this.element = section("Live", note(HINT_OF_LIVE), this.fields, row(this.button, this.keepButton));
@@ -35,6 +36,17 @@ export class LivePanel {
       planner: chosenIn(this.planner), sense, line_of_sight: sense !== null && this.sight.checked,
       delays: (numberIn(this.late) ?? 0) / 100, replan: this.replan.checked, budget: numberIn(this.budget),
     };
+  }
+
+  #explain() {
+    for (const [field, hint] of [
+      [this.planner, "Who decides what robots do next: fcost and greedy step by step, others by plans."],
+      [this.sense, "How far robots see around them; empty: they know the whole area."],
+      [this.late, "How many robots in a hundred stand still in each step, by chance."],
+      [this.budget, "How long a plan may take before robots go on step by step."],
+      [this.sight.parentElement, "Robots do not see through walls."],
+      [this.replan.parentElement, "Also fcost and greedy make a whole plan whenever the world has changed."],
+    ]) field.setAttribute("title", hint);
   }
 
   toggle() { return this.run ? this.leave() : this.#start(); }

@@ -1,18 +1,29 @@
 // Planning: who plans, for this document and beside it.
 
 import { h, number, plural, title } from "./words.js";
-import { button, chosenIn, grid, inner, labelled, row, section, select } from "./controls.js";
+import { button, chosenIn, grid, inner, labelled, note, row, section, select } from "./controls.js";
 import { arraysOf } from "./documents.js";
 import { runOf } from "./runs.js";
 
 const SAME_CELLS = "the same cells";
 
-function optionField(name, value) {
-  const kind = typeof value === "number" ? "number" : "text";
+// A field for an option: a menu where there are choices, each with a line.
+function optionField(name, value, hints = {}) {
+  const choices = Object.keys(hints).filter(Boolean), line = note(hints[""] ?? "");
+  const label = title(name.replace(/_/g, " ")), more = { "aria-label": label, "data-option": name };
+  if (choices.length) {
+    const tell = () => { line.textContent = hints[menu.value]; };
+    const menu = h("select", { ...more, onchange: tell },
+      choices.map((choice) => h("option", { value: choice, title: hints[choice] }, title(choice))));
+    menu.value = value;
+    tell();
+    return h("div", { class: "wide" }, labelled(label, menu), line);
+  }
+  const kind = typeof value === "string" ? "text" : "number";
   const input = typeof value === "boolean"
-    ? h("input", { type: "checkbox", checked: value, "data-option": name })
-    : h("input", { type: kind, step: "any", value: value ?? "", placeholder: "default", "data-option": name });
-  return labelled(name.replace(/_/g, " "), input);
+    ? h("input", { type: "checkbox", checked: value, ...more })
+    : h("input", { type: kind, step: "any", value: value ?? "", placeholder: "as usual", ...more });
+  return h("div", { class: "wide" }, labelled(label, input), line);
 }
 
 function optionIn(input, usual) {
@@ -29,29 +40,39 @@ export class Planning {
     const { planners, tessellations } = app.settings, names = Object.keys(planners);
     this.first = select("Planner", names, () => this.#showOptions());
     this.first.lastChild.value = names.includes("fcost") ? "fcost" : names[0];
+    this.line = note();
+    this.lineBeside = note();
     this.options = inner("Options of the planner", grid());
-    this.beside = select("Beside it", names, () => {}, { "aria-label": "Planner beside it" });
+    this.beside = select("Beside it", names, () => this.#tellBeside(), { "aria-label": "Planner beside it" });
     this.beside.lastChild.value = names.includes("optimal") ? "optimal" : "greedy";
     this.cells = select("on", [SAME_CELLS, ...tessellations], () => {}, { "aria-label": "Cells beside it" });
     this.endButton = button("One picture", () => this.endCompare(), { hidden: true });
     this.element = section("Plan",
-      row(this.first, button("Plan", () => this.plan(0), { class: "primary", title: "P" })), this.options,
-      grid(this.beside, this.cells), row(button("Compare", () => this.plan(1)), this.endButton));
+      row(this.first, button("Plan", () => this.plan(0), { class: "primary", title: "P" })), this.line,
+      this.options, grid(this.beside, this.cells), this.lineBeside,
+      row(button("Compare", () => this.plan(1)), this.endButton));
     this.#showOptions();
+    this.#tellBeside();
   }
 
   get planner() { return chosenIn(this.first); }
 
   // Choose the planner that a file names, if there is such a one.
   choose(planner) {
-    if (planner && this.app.settings.planners[planner]) this.first.lastChild.value = planner;
+    if (!planner || !this.app.settings.planners[planner]) return;
+    this.first.lastChild.value = planner;
+    this.#showOptions();
   }
 
   #showOptions() {
-    const options = Object.entries(this.app.settings.planners[this.planner]);
+    const { planners, hints } = this.app.settings, { line, options: lines } = hints[this.planner];
+    const options = Object.entries(planners[this.planner]);
+    this.line.textContent = line;
     this.options.hidden = !options.length;
-    this.options.lastChild.replaceChildren(...options.map(([name, value]) => optionField(name, value)));
+    this.options.lastChild.replaceChildren(...options.map(([name, value]) => optionField(name, value, lines[name])));
   }
+
+  #tellBeside() { this.lineBeside.textContent = this.app.settings.hints[chosenIn(this.beside)].line; }
 
   // The options of a planner that are not as usual; there are fields for the first planner only.
   #optionsOf(planner) {

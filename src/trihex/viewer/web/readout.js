@@ -2,6 +2,7 @@
 
 import { h, number } from "./words.js";
 import { NOT_REACHED, shapeOf } from "./documents.js";
+import { nameOfCell, nameOfRobot } from "./names.js";
 
 export class Readout {
   constructor(app) {
@@ -23,11 +24,11 @@ export class Readout {
   }
 
   #there(doc, cell) {
-    const words = [`cell (${cell % doc.width}, ${Math.floor(cell / doc.width)})`];
+    const words = [`cell ${nameOfCell(doc, cell)}`];
     if (doc.barriers[cell]) words.push("barrier");
     else words.push(doc.destinations.includes(cell) ? "destination" : "free");
     const robot = this.app.clock.at === 0 ? doc.robots.indexOf(cell) : -1;
-    if (robot >= 0) words.push(`robot ${robot}`);
+    if (robot >= 0) words.push(nameOfRobot(robot, doc.robots.length));
     return words;
   }
 

@@ -3,6 +3,7 @@
 import { h, title, wholeOf } from "./words.js";
 import { button, grid, inner, note, numberField, section, select } from "./controls.js";
 import { mayLeak } from "./leaks.js";
+import { OF_RULES } from "./sentences.js";
 
 export class Rules {
   constructor(app) {
@@ -24,6 +25,7 @@ export class Rules {
       destination_capacity: numberField("Arrivals per step and destination", "",
         { min: 1, placeholder: "any", onchange: whole("destination_capacity") }),
     };
+    for (const [name, field] of Object.entries(this.fields)) field.setAttribute("title", OF_RULES[name]);
     this.squeeze = note("Robots may squeeze between walls that touch at a corner: ",
       button("close the gaps", () => this.#rule("corners", "no-squeeze"), { class: "link" }));
     this.element = section("Cells and rules", this.tessellation, this.squeeze,

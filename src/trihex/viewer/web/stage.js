@@ -23,7 +23,7 @@ export class Stage {
     this.legend = new Legend(app);
     this.zoomButtons = h("div", { class: "zoom" }, button("+", () => this.zoom(1.4), { "aria-label": "Zoom in" }),
       button("−", () => this.zoom(1 / 1.4), { "aria-label": "Zoom out" }),
-      button("Fit", () => this.fit(), { "aria-label": "Show all" }));
+      button("Show all", () => this.fit(), { title: "0: the whole area" }));
     this.still = null; // the robots of a document that has no plan, { doc, distance, robots }
     this.isWaiting = false; // for the next frame of the screen
     this.lastTick = undefined; // when the last one was, if this one follows it
