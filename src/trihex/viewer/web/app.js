@@ -14,7 +14,7 @@ import { History } from "./history.js";
 import { Keys } from "./keys.js";
 import { LivePanel } from "./livepanel.js";
 import { Opening } from "./opening.js";
-import { layOut } from "./panel.js";
+import { Panel, layOut } from "./panel.js";
 import { Planning } from "./planning.js";
 import { Questions } from "./questions.js";
 import { Readout } from "./readout.js";
@@ -61,6 +61,7 @@ export class App {
     this.tools = new Tools(this);
     this.hand = new Hand(this);
     this.keys = new Keys(this);
+    this.panel = new Panel(this);
     this.bar = new Bar(this);
     // What there is to be asked of a host.
     this.rules = this.host && new Rules(this);
@@ -78,7 +79,8 @@ export class App {
       event.preventDefault();
       if (event.dataTransfer.files[0]) this.opening?.openFile(event.dataTransfer.files[0]);
     });
-    new ResizeObserver(() => this.stage.resize()).observe(this.stage.element);
+    const sizes = new ResizeObserver(() => this.stage.resize());
+    for (const element of [this.stage.element, ...this.panes.map(({ canvas }) => canvas)]) sizes.observe(element);
   }
 
   close() {

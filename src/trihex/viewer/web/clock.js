@@ -13,7 +13,7 @@ export class Clock {
     this.at = 0; // a step, and the share of the next that has passed
     this.isPlaying = false;
     this.shown = null; // the step and the document that the page tells of
-    this.playButton = button("Play", () => this.toggle(), { class: "primary play", title: "Space" });
+    this.playButton = button("Play", () => this.toggle(), { class: "play", title: "Space" });
     this.scrubber = h("input", { type: "range", min: 0, max: 0, value: 0, step: "any", class: "scrub",
       "aria-label": "Step", oninput: () => this.seek(Number(this.scrubber.value)) });
     this.text = h("output", { class: "clock", title: HINT_OF_STEP });
@@ -103,6 +103,7 @@ export class Clock {
     this.scrubber.disabled = !runs[0];
     this.scrubber.setAttribute("aria-valuetext", `step ${this.step} of ${steps}`);
     this.playButton.disabled = !runs[0] && !live;
+    this.playButton.classList.toggle("primary", !this.playButton.disabled);
     this.playButton.textContent = this.isPlaying || live?.isPlaying ? "Pause" : "Play";
     if (live) this.text.textContent = `step ${number(steps)}, live`;
     else this.text.textContent = runs[0] ? `step ${number(this.step)} / ${number(steps)}` : "no plan";

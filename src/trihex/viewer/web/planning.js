@@ -46,10 +46,11 @@ export class Planning {
     this.beside = select("Beside it", names, () => this.#tellBeside(), { "aria-label": "Planner beside it" });
     this.beside.lastChild.value = names.includes("optimal") ? "optimal" : "greedy";
     this.cells = select("on", [SAME_CELLS, ...tessellations], () => {}, { "aria-label": "Cells beside it" });
-    this.endButton = button("One picture", () => this.endCompare(), { hidden: true });
+    // It stands beside Play, where it is always in sight.
+    this.button = button("Plan", () => this.plan(0), { title: "P" });
+    this.endButton = button("End comparing", () => this.endCompare(), { hidden: true });
     this.element = section("Plan",
-      row(this.first, button("Plan", () => this.plan(0), { class: "primary", title: "P" })), this.line,
-      this.options, grid(this.beside, this.cells), this.lineBeside,
+      this.first, this.line, this.options, grid(this.beside, this.cells), this.lineBeside,
       row(button("Compare", () => this.plan(1)), this.endButton));
     this.#showOptions();
     this.#tellBeside();
@@ -151,5 +152,9 @@ export class Planning {
 
   endCompare() { this.app.set(this.app.doc, [this.app.runs[0], null]); }
 
-  show() { this.endButton.hidden = !this.app.runs[1]; }
+  show() {
+    const { runs, live } = this.app;
+    this.endButton.hidden = !runs[1];
+    this.button.classList.toggle("primary", !runs[0] && !live);
+  }
 }

@@ -3,6 +3,7 @@
 import { h, number, plural, title, gapWords } from "./words.js";
 import { button } from "./controls.js";
 import { Legend } from "./legend.js";
+import { shapeOf } from "./documents.js";
 import { Pane } from "./pane.js";
 import { Still } from "./playback.js";
 
@@ -17,7 +18,8 @@ export class Stage {
     this.app = app;
     this.panes = [0, 1].map((i) => new Pane(makeCanvas(i), app.settings.colours));
     this.captions = this.panes.map(() => h("div", { class: "caption" }));
-    this.frames = this.panes.map((pane, i) => h("div", { class: "pane" }, pane.canvas, this.captions[i]));
+    this.frames = this.panes.map((pane, i) => h("div", { class: "pane" }, this.captions[i],
+      h("div", { class: "hold" }, pane.canvas)));
     this.frames[1].hidden = true;
     this.element = h("div", { class: "panes" }, this.frames);
     this.legend = new Legend(app);
@@ -73,6 +75,7 @@ export class Stage {
   // ---- where
 
   resize() {
+    this.#arrange();
     const ratio = Math.min(window.devicePixelRatio || 1, 2);
     this.panes.forEach((pane, i) => {
       if (this.frames[i].hidden) return;
@@ -80,6 +83,15 @@ export class Stage {
       pane.resize(pixels(box.width), pixels(box.height));
     });
     this.invalidate();
+  }
+
+  // Two plans stand side by side, or one above the other where that is larger.
+  #arrange() {
+    const { doc, runs } = this.app, { width, height } = this.element.getBoundingClientRect();
+    if (!doc || !runs[1]) return;
+    const [across, down] = shapeOf(doc).extent(doc.width, doc.height);
+    const beside = Math.min(width / 2 / across, height / down), above = Math.min(width / across, height / 2 / down);
+    this.element.classList.toggle("stacked", above > beside);
   }
 
   zoom(factor) {
@@ -102,6 +114,7 @@ export class Stage {
       this.element.classList.toggle("split", isSplit);
       this.resize();
     }
+    if (isSplit) this.#arrange();
     this.#showFirst();
     if (isSplit) this.#showBeside();
     this.legend.show();
