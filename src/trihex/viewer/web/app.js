@@ -8,6 +8,7 @@ import { Dialog } from "./dialog.js";
 import { Draws } from "./draws.js";
 import { Field } from "./field.js";
 import { Followed } from "./followed.js";
+import { Guide } from "./guide.js";
 import { Growing } from "./growing.js";
 import { Hand } from "./hand.js";
 import { History } from "./history.js";
@@ -42,7 +43,7 @@ export class App {
     this.theme.apply();
     this.tools.choose(host ? "wall" : "move");
     if (first) this.take(first);
-    else this.make(this.draws.begin());
+    else this.make(this.draws.begin()).then(() => this.guide.offer());
   }
 
   #makeParts() {
@@ -70,6 +71,7 @@ export class App {
     this.livePanel = this.host && new LivePanel(this);
     this.opening = this.host && new Opening(this);
     this.saving = this.host && new Saving(this);
+    this.guide = this.host && new Guide(this);
   }
 
   #listen() {
@@ -152,6 +154,7 @@ export class App {
   // Go on with another document, in a way that can be undone.
   edit(doc, runs = [null, null]) {
     this.leaveLive();
+    this.guide?.leave();
     if (this.doc) this.history.keep({ doc: this.doc, runs: this.runs });
     this.set(doc, runs);
   }

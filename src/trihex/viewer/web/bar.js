@@ -16,7 +16,7 @@ export class Bar {
       button("Save…", () => app.saving.open(), { title: "Ctrl+S" }), this.undo, this.redo,
     ];
     this.element = h("header", { class: "bar" }, h("strong", { class: "brand" }, "trihex"), files, this.name,
-      app.panel.button, app.theme.button, button("Help", () => showHelp(app.dialog), { title: "?" }));
+      app.panel.button, app.theme.button, button("Help", () => showHelp(app), { title: "?" }));
   }
 
   show() {

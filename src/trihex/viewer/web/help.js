@@ -1,7 +1,7 @@
 // Help: how the page works, and its keys.
 
 import { h } from "./words.js";
-import { note } from "./controls.js";
+import { button, note } from "./controls.js";
 
 const STORY = [
   "Paint walls, or open an area.",
@@ -27,9 +27,10 @@ const KEYS = [
   ["Escape", "cancel"],
 ];
 
-export function showHelp(dialog) {
+export function showHelp({ dialog, guide }) {
   const keys = KEYS.map(([key, words]) => h("tr", {}, h("th", { scope: "row" }, key), h("td", {}, words)));
   dialog.open("How it works", h("ol", {}, STORY.map((line) => h("li", {}, line))),
+    guide && button("Show me: a guided minute", () => { dialog.close(); guide.begin(); }),
     h("p", {}, TIMES),
     h("table", { class: "keys" }, keys),
     note("Wheel or pinch to zoom; drag with the right button, Shift or two fingers to move the picture."));

@@ -71,7 +71,7 @@ export class Keys {
       "+": () => stage.zoom(1.4), "=": () => stage.zoom(1.4), "-": () => stage.zoom(1 / 1.4), 0: () => stage.fit(),
       p: () => host && app.planning.plan(0), l: () => host && app.livePanel.toggle(),
       Home: () => clock.seek(0), End: () => clock.seek(app.steps),
-      "?": () => showHelp(app.dialog), Escape: () => app.questions.cancel(),
+      "?": () => showHelp(app), Escape: () => app.questions.cancel(),
     }[key];
   }
 

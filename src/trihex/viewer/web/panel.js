@@ -15,6 +15,11 @@ export class Panel {
     this.fold(width > BELOW_TO && width <= FOLDED_TO);
   }
 
+  // Scroll to a section, but not away from the picture where the panel stands below it.
+  reveal(element) {
+    if (getComputedStyle(this.element).overflowY !== "visible") element.scrollIntoView({ block: "nearest" });
+  }
+
   fold(isFolded) {
     this.isFolded = isFolded;
     this.element.hidden = isFolded;
@@ -32,12 +37,12 @@ export function layOut(app) {
   return h("div", { class: "trihex" }, bar.element, main, dialog.element);
 }
 
-function stageOf({ status, questions, stage, readout, clock, planning }) {
+function stageOf({ status, questions, stage, readout, clock, planning, guide }) {
   const head = h("div", { class: "head" }, status.element, questions.element);
   const under = h("div", { class: "under" }, readout.element, stage.legend.element, stage.zoomButtons);
   if (planning) clock.element.prepend(planning.button);
   return h("section", { class: "stage", "aria-label": "Picture" }, head,
-    h("div", { class: "view" }, stage.element), under, clock.element);
+    h("div", { class: "view" }, stage.element, guide?.element), under, clock.element);
 }
 
 function sectionsOf({ host, rules, draws, field, growing, planning, livePanel, results, followed }) {

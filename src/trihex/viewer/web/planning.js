@@ -65,6 +65,13 @@ export class Planning {
     this.#showOptions();
   }
 
+  // Choose who plans, and who beside it, if there are such planners.
+  pick(first, beside) {
+    this.choose(first);
+    if (this.app.settings.planners[beside]) this.beside.lastChild.value = beside;
+    this.#tellBeside();
+  }
+
   #showOptions() {
     const { planners, hints } = this.app.settings, { line, options: lines } = hints[this.planner];
     const options = Object.entries(planners[this.planner]);
@@ -113,7 +120,7 @@ export class Planning {
     app.clock.seek(0);
     // From here on a click should follow a robot rather than paint a wall, which would undo the plan.
     app.tools.choose("move");
-    app.results.element.scrollIntoView({ block: "nearest" });
+    app.panel.reveal(app.results.element);
     this.bound();
     const { summary } = run;
     if (run === app.runs[which]) app.say(this.wordsOf(summary), summary.conflicts > 0);
