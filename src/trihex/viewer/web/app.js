@@ -41,7 +41,7 @@ export class App {
     root.replaceChildren(this.shell);
     this.#listen();
     this.theme.apply();
-    this.tools.choose(host ? "wall" : "move");
+    this.tools.choose(this.canEdit ? "wall" : "move");
     if (first) this.take(first);
     else this.make(this.draws.begin()).then(() => this.guide.offer());
   }
@@ -64,14 +64,15 @@ export class App {
     this.keys = new Keys(this);
     this.panel = new Panel(this);
     this.bar = new Bar(this);
-    // What there is to be asked of a host.
-    this.rules = this.host && new Rules(this);
-    this.draws = this.host && new Draws(this);
+    // What there is to be asked of a host, and what takes one that does more than hand out answers.
+    const editing = (Part) => (this.canEdit ? new Part(this) : null);
+    this.rules = editing(Rules);
+    this.draws = editing(Draws);
     this.planning = this.host && new Planning(this);
-    this.livePanel = this.host && new LivePanel(this);
-    this.opening = this.host && new Opening(this);
-    this.saving = this.host && new Saving(this);
-    this.guide = this.host && new Guide(this);
+    this.livePanel = editing(LivePanel);
+    this.opening = editing(Opening);
+    this.saving = editing(Saving);
+    this.guide = editing(Guide);
   }
 
   #listen() {
@@ -92,6 +93,7 @@ export class App {
 
   // ---- what the parts hold
 
+  get canEdit() { return this.host?.canEdit ?? false; }
   get panes() { return this.stage.panes; }
   get job() { return this.questions.job; }
   get fields() { return this.field.known; }

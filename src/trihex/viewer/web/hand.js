@@ -46,7 +46,7 @@ export class Hand {
     const isPan = button === 1 || button === 2 || shiftKey || i === 1 || tool === "move";
     const cell = pane.cellAt(px, py);
     if (!isPan) return this.#beginStroke(cell, px, py);
-    const canHold = i === 0 && button === 0 && app.host && tool === "move" && cell >= 0;
+    const canHold = i === 0 && button === 0 && app.canEdit && tool === "move" && cell >= 0;
     const held = canHold ? this.#thingAt(cell) : null;
     this.stroke = { kind: held && app.clock.at === 0 ? "carry" : "pan", px, py, cell, held, moved: 0 };
   }

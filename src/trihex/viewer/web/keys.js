@@ -36,7 +36,7 @@ export class Keys {
     const isText = target.matches?.(TEXTS), isCommand = event.ctrlKey || event.metaKey;
     let does;
     if (key === "Tab") this.isTabbing = true;
-    if (isCommand) does = app.host && !isText ? this.#command(key, event.shiftKey) : undefined;
+    if (isCommand) does = app.canEdit && !isText ? this.#command(key, event.shiftKey) : undefined;
     else if (!altKey && (key === " " ? this.#isFree(target) : !isText)) does = this.#action(key);
     if (!does) return;
     event.preventDefault();
@@ -63,13 +63,13 @@ export class Keys {
   }
 
   #action(key) {
-    const { app } = this, { clock, stage, host } = app, tool = host && app.tools.ofKey(key);
+    const { app } = this, { clock, stage, host, canEdit } = app, tool = canEdit && app.tools.ofKey(key);
     if (tool) return () => app.tools.choose(tool);
     return {
       " ": () => clock.toggle(), ",": () => clock.back(), ".": () => clock.forth(),
       "[": () => clock.faster(-1), "]": () => clock.faster(1),
       "+": () => stage.zoom(1.4), "=": () => stage.zoom(1.4), "-": () => stage.zoom(1 / 1.4), 0: () => stage.fit(),
-      p: () => host && app.planning.plan(0), l: () => host && app.livePanel.toggle(),
+      p: () => host && app.planning.plan(0), l: () => canEdit && app.livePanel.toggle(),
       Home: () => clock.seek(0), End: () => clock.seek(app.steps),
       "?": () => showHelp(app), Escape: () => app.questions.cancel(),
     }[key];

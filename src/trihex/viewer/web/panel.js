@@ -30,9 +30,9 @@ export class Panel {
 
 // The element that holds the page of an app.
 export function layOut(app) {
-  const { host, bar, tools, dialog, panel } = app;
+  const { canEdit, bar, tools, dialog, panel } = app;
   panel.element.replaceChildren(...sectionsOf(app));
-  const main = h("main", { class: host ? "main" : "main alone" }, host ? tools.element : null, stageOf(app),
+  const main = h("main", { class: canEdit ? "main" : "main alone" }, canEdit ? tools.element : null, stageOf(app),
     panel.element);
   return h("div", { class: "trihex" }, bar.element, main, dialog.element);
 }
@@ -46,7 +46,7 @@ function stageOf({ status, questions, stage, readout, clock, planning, guide }) 
 }
 
 function sectionsOf({ host, rules, draws, field, growing, planning, livePanel, results, followed }) {
-  const distances = section("Distance field", field.element, host ? growing.controls : null);
-  if (!host) return [distances, results.element, followed.element];
-  return [rules, draws, { element: distances }, planning, livePanel, results, followed].map(({ element }) => element);
+  const distances = { element: section("Distance field", field.element, host ? growing.controls : null) };
+  const parts = [rules, draws, distances, planning, livePanel, results, followed];
+  return parts.filter(Boolean).map(({ element }) => element);
 }

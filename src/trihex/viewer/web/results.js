@@ -65,7 +65,7 @@ export class Results {
     this.sofar = h("div", { class: "sofar", title: SO_FAR });
     this.chart = new Chart(app);
     this.sets = h("div", { class: "sets", "aria-label": "Robots by set" });
-    const alone = app.host ? null : note(ALONE);
+    const alone = app.canEdit ? null : note(ALONE);
     this.element = section("Result", this.table, this.sets, this.sofar, this.chart.element, alone);
   }
 

@@ -155,7 +155,7 @@ export class Stage {
   }
 
   #showPane(i, run, growing, most) {
-    const { doc: own, runs, settings, theme, field, followed: { robot }, host } = this.app, pane = this.panes[i];
+    const { doc: own, runs, settings, theme, field, followed: { robot }, canEdit } = this.app, pane = this.panes[i];
     const doc = run ? run.doc : own, { tessellation, neighbourhood } = doc.header;
     const isThere = run && robot >= 0 && robot < run.playback.count;
     pane.take({
@@ -167,7 +167,7 @@ export class Stage {
     });
     const things = `${plural(doc.robots.length, "robot")}, ${plural(doc.destinations.length, "destination")}`;
     const area = `${title(tessellation)} area of ${doc.width} by ${doc.height} cells, ${things}`;
-    const use = host && !i ? ", Enter uses the tool" : "";
+    const use = canEdit && !i ? ", Enter uses the tool" : "";
     pane.canvas.setAttribute("aria-label", `${area}. Arrow keys move the cursor${use}.`);
     this.captions[i].textContent = run && runs[1] ? `${run.summary.planner} · ${tessellation} · ` +
       `total time ${number(run.summary.total_time)} · ${gapWords(run.summary)}` : "";
