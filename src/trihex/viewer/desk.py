@@ -31,7 +31,7 @@ from trihex.viewer import requests as ask
 from trihex.viewer.bundle import Bundle, decode, encode
 from trihex.viewer.call import TICK, Call, CancelledError, Send
 from trihex.viewer.compiling import prepare_for
-from trihex.viewer.document import document_of
+from trihex.viewer.document import document_of, ground_of
 from trihex.viewer.exports import export
 from trihex.viewer.folder import Folder, references_of
 from trihex.viewer.live import Live
@@ -41,6 +41,8 @@ from trihex.viewer.show import show_plan
 # The automaton looks at all neighbours of all cells in every generation.
 MAX_AUTOMATON_CELLS = 2**20
 _PLACE = ("cell_size", "robot_radius", "resolution", "threshold", "invert", "unknown")
+
+_IN_METRES = ("ros", "geojson", "wkt")  # formats that say nothing of cells: the page asks how large they shall be
 
 log = logging.getLogger(__name__)
 
@@ -132,7 +134,12 @@ class Desk:
             draft = call.draft(request)
             return _drafted(replace(draft, robots=read_starts(path, draft.area), seed=None))
         options = {name: getattr(request, name) for name in _PLACE}
-        draft = read_draft(path, request.tessellation, progress=call.progress("reading"), **options)
+        try:
+            draft = read_draft(path, request.tessellation, progress=call.progress("reading"), **options)
+        except FormatError as error:
+            if request.cell_size is None and form.name in _IN_METRES and "cell_size" in str(error):
+                return Bundle({"needs": "cell_size", "name": path.name}, {})
+            raise
         return _drafted(_drawn(draft))
 
     def _generate(self, request: ask.Generate, call: Call) -> Bundle:
@@ -285,7 +292,8 @@ def _drawn(draft: Draft) -> Draft:
 
 def _drafted(draft: Draft) -> Bundle:
     header, arrays = document_of(draft)
-    return Bundle({"document": header, "planner": draft.planner}, arrays)
+    ground, more = ground_of(draft)
+    return Bundle({"document": header, "planner": draft.planner, "ground": ground}, {**arrays, **more})
 
 
 def _joined(

@@ -32,7 +32,7 @@ _POLICY = (
 
 def settings_of(**more: Any) -> dict[str, Any]:
     """Return what every page needs to know: colours, and what `more` says of its host."""
-    names = ("FREE", "BARRIER", "DESTINATION", "UNREACHED", "MOVING", "WAITING", "FINAL", "STRANDED", "INK")
+    names = ("FREE", "BARRIER", "DESTINATION", "UNREACHED", "MOVING", "WAITING", "FINAL", "STRANDED", "TIGHT", "INK")
     ramp = palette.distance_ramp(256).tolist()
     series = [list(colour) for colour in palette.SERIES]
     colours = {name.lower(): list(getattr(palette, name)) for name in names}

@@ -27,6 +27,7 @@ import { Stage } from "./stage.js";
 import { Status } from "./status.js";
 import { Theme } from "./theme.js";
 import { Tools } from "./tools.js";
+import { undergroundOf } from "./underground.js";
 
 export class App {
   constructor(root, settings, host, first) {
@@ -135,7 +136,9 @@ export class App {
 
   // Take an answer of the host: a document, and the plan for it if there is one.
   take({ header, arrays }, { isEdit = true } = {}) {
-    const doc = documentOf(header.document, arrays), run = header.summary ? runOf({ header, arrays }, doc) : null;
+    const plain = documentOf(header.document, arrays);
+    const doc = { ...plain, ground: undergroundOf(header, arrays, plain.barriers) };
+    const run = header.summary ? runOf({ header, arrays }, doc) : null;
     // A file may hold the plan beside it as well.
     const beside = arrays.beside ? runOf(decode(arrays.beside.slice())) : null;
     this.planning?.choose(header.planner);

@@ -2,7 +2,7 @@
 
 export const DARK = {
   free: [43, 47, 54], barrier: [146, 152, 162], unreached: [84, 82, 90], moving: [86, 180, 233],
-  stranded: [250, 250, 250], page: [24, 26, 30], fog: [66, 74, 92], fog_barrier: [104, 114, 136],
+  tight: [92, 97, 106], stranded: [250, 250, 250], page: [24, 26, 30], fog: [66, 74, 92], fog_barrier: [104, 114, 136],
 };
 export const LIGHT = { page: [233, 234, 236] };
 

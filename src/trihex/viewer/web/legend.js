@@ -24,7 +24,8 @@ export class Legend {
 
   #entries() {
     const { live, runs: [run], doc, field, stage } = this.app, { values } = this.app.panes[0];
-    const entries = [["barrier", "barrier", "cell"], ["destination", "destination"]];
+    const entries = [["barrier", doc.ground ? "wall" : "barrier", "cell"], ["destination", "destination"]];
+    if (doc.ground) entries.splice(1, 0, ["tight", "robots do not fit", "cell"]);
     if (live?.known) entries.push(["fog", "not seen", "cell"], ["fog_barrier", "barrier not seen", "cell"]);
     if (live) {
       entries.push(["moving", "moving"], ["waiting", "waiting"], ["final", "arriving"]);

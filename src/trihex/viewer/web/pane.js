@@ -5,6 +5,8 @@ import { DARK, LIGHT, between, packed, mix } from "./colours.js";
 import { darkenBarriers, drawGround } from "./ground.js";
 import { drawMarks } from "./marks.js";
 import { plotRobots } from "./robots.js";
+import { drawScaleBar } from "./scalebar.js";
+import { drawUnderground } from "./underground.js";
 
 // Where the cells are on a canvas: device pixels an edge step, and the north-west corner.
 class View {
@@ -188,7 +190,8 @@ export class Pane {
     const palette = this.palette(), colour = this.#colourOfCells(palette), page = packed(palette.page);
     const { base32, cellOfPixel, view, paperContext } = this;
     for (let p = 0; p < base32.length; p++) base32[p] = cellOfPixel[p] < 0 ? page : colour[cellOfPixel[p]];
-    if (view.scale < 1 && !this.isRough) darkenBarriers(this, palette);
+    if (this.doc.ground) drawUnderground(this, palette);
+    else if (view.scale < 1 && !this.isRough) darkenBarriers(this, palette);
     paperContext.putImageData(this.base, 0, 0);
     drawGround(this, palette);
     this.base.data.set(paperContext.getImageData(0, 0, this.canvas.width, this.canvas.height).data);
@@ -202,5 +205,6 @@ export class Pane {
     if (this.robots) plotRobots(this, fraction);
     this.context.putImageData(this.frame, 0, 0);
     drawMarks(this, fraction);
+    drawScaleBar(this);
   }
 }

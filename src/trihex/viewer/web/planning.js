@@ -112,7 +112,7 @@ export class Planning {
     if (this.asked?.wish === wish) this.asked = null;
     if (!answer || app.doc !== doc) return;
     // The plan plays on the very document of the page, so that an edit is noticed.
-    const run = runOf(answer, which ? null : doc);
+    const run = runOf(answer, which ? null : doc, doc.ground);
     app.history.keep({ doc, runs: app.runs });
     app.growing.end();
     if (!which) app.clock.rewind();

@@ -1,8 +1,16 @@
 // Readout: what is known of the cell under the pointer.
 
 import { h, number } from "./words.js";
-import { NOT_REACHED, shapeOf } from "./documents.js";
+import { NOT_REACHED, centreOf, shapeOf } from "./documents.js";
 import { nameOfCell, nameOfRobot } from "./names.js";
+
+// Where the centre of a cell lies in the world.
+function metresOf(doc, cell) {
+  const [px, py] = centreOf(doc, cell), { cell_size: size, origin, yaw } = doc.header.frame;
+  const east = px * size, north = -py * size, cos = Math.cos(yaw), sin = Math.sin(yaw);
+  const x = origin[0] + east * cos - north * sin, y = origin[1] + east * sin + north * cos;
+  return `x ${x.toFixed(2)} m, y ${y.toFixed(2)} m`;
+}
 
 export class Readout {
   constructor(app) {
@@ -29,6 +37,7 @@ export class Readout {
     else words.push(doc.destinations.includes(cell) ? "destination" : "free");
     const robot = this.app.clock.at === 0 ? doc.robots.indexOf(cell) : -1;
     if (robot >= 0) words.push(nameOfRobot(robot, doc.robots.length));
+    if (doc.header.frame) words.push(metresOf(doc, cell));
     return words;
   }
 
