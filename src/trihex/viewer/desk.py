@@ -22,7 +22,7 @@ from trihex.bounds import distance_bound, make_lower_bound, slot_bound
 from trihex.errors import FormatError, TooLargeError, TrihexError, check_choice, check_type
 from trihex.fields import distance_generations, make_d_scheme
 from trihex.files import read_bytes
-from trihex.formats import FORMATS, Draft, draft_of, format_of, read_draft, read_plan, read_starts
+from trihex.formats import FORMATS, Draft, draft_of, format_of, read_draft, read_plan, read_run, read_starts
 from trihex.judging import Report, audit_plan, make_report
 from trihex.planners import PLANNERS, make_plan
 from trihex.plans import Plan
@@ -33,8 +33,8 @@ from trihex.viewer.call import TICK, Call, CancelledError, Send
 from trihex.viewer.compiling import prepare_for
 from trihex.viewer.document import document_of, ground_of
 from trihex.viewer.exports import export
-from trihex.viewer.folder import Folder, references_of
-from trihex.viewer.live import Live
+from trihex.viewer.folder import Folder, holds_run, references_of
+from trihex.viewer.live import Live, replay_of, trial_of
 from trihex.viewer.shelf import Shelf
 from trihex.viewer.show import show_plan
 
@@ -124,6 +124,8 @@ class Desk:
 
     def _opened(self, path: Path, request: ask.OpenFile, call: Call) -> Bundle:
         form = FORMATS[format_of(read_bytes(path), path)]
+        if form.name == "npz" and holds_run(path):
+            return self._watched(read_run(path), call)
         seconds: dict[str, float] = {}
         begin = perf_counter()
         if form.holds == "plan":
@@ -221,11 +223,20 @@ class Desk:
         check_choice("planner", request.planner, PLANNERS, FormatError)
         scenario = call.scenario(request)
         prepare_for(call, "trial", *((request.planner,) if request.replan else ()), scenario=scenario)
-        live = Live(scenario, request)
+        return self._begun(Live(trial_of(scenario, request)))
+
+    def _begun(self, live: Live) -> Bundle:
         name = self.shelf.put_live(live)
         first = live.advance(ask.Advance(op="advance", live=name, steps=0))
-        edge, wait = scenario.area.tessellation.edge_cost, int(scenario.waiting_cost)
-        return Bundle({"live": name, "edge_cost": edge, "waiting_cost": wait, **first.header}, first.arrays)
+        return Bundle({"live": name, **first.header}, first.arrays)
+
+    def _watched(self, run: Run, call: Call) -> Bundle:
+        """Return a run as a live one that does again what it did, with its document."""
+        prepare_for(call, "trial", scenario=run.scenario)
+        document, arrays = document_of(draft_of(run.scenario))
+        begun = self._begun(replay_of(run))
+        told = {"sense": None if run.sensor is None else run.sensor.radius, "delays": run.delay, "steps": run.steps}
+        return Bundle({"document": document, "watched": told, **begun.header}, {**arrays, **begun.arrays})
 
     def _advance(self, request: ask.Advance, call: Call) -> Bundle:
         return self.shelf.live(request.live).advance(request)

@@ -190,7 +190,7 @@ export class App {
   // ---- what is shown
 
   refresh() {
-    for (const part of [this.bar, this.rules, this.draws, this.growing, this.planning]) part?.show();
+    for (const part of [this.bar, this.tools, this.rules, this.draws, this.growing, this.planning]) part?.show();
     this.#sayNext();
     this.livePanel?.show();
     this.stage.show();

@@ -7,6 +7,9 @@ const SPEEDS = [0.5, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96]; // steps per
 
 const HINT_OF_STEP = "The step that is shown, of all steps: in each, every robot moves or waits.";
 
+const minutes = (seconds) =>
+  `${Math.floor(seconds / 60)}:${String(Math.floor(seconds % 60)).padStart(2, "0")}`;
+
 export class Clock {
   constructor(app) {
     this.app = app;
@@ -105,10 +108,14 @@ export class Clock {
     this.playButton.disabled = !runs[0] && !live;
     this.playButton.classList.toggle("primary", !this.playButton.disabled);
     this.playButton.textContent = this.isPlaying || live?.isPlaying ? "Pause" : "Play";
-    if (live) this.text.textContent = `step ${number(steps)}, live`;
-    else this.text.textContent = runs[0] ? `step ${number(this.step)} / ${number(steps)}` : "no plan";
+    if (live) this.text.textContent = `step ${number(steps)} · ${minutes(live.seconds)} live`;
+    else if (!runs[0]) this.text.textContent = "no plan";
+    else this.text.textContent = `step ${number(this.step)} / ${number(steps)}${this.#secondsIn(runs[0])}`;
     this.#showStep(runs.filter(Boolean));
   }
+
+  // How long robots are on their way in the world, where there are metres.
+  #secondsIn({ seconds_per_step: each }) { return each ? ` · ${(this.at * each).toFixed(1)} s` : ""; }
 
   // What depends on the step is made anew only where there is another one.
   #showStep(runs) {

@@ -16,6 +16,7 @@ export function drawGround(pane, palette) {
   if (cells && scale >= OUTLINES_FROM) drawLeaks(pane, cells, palette);
   if (cells && pane.values && scale >= ARROWS_FROM) drawField(pane, cells, palette);
   drawDestinations(pane, palette);
+  if (pane.paths) drawPaths(pane, palette);
   if (pane.track) drawTrack(pane);
 }
 
@@ -150,17 +151,30 @@ function drawDestinations(pane, palette) {
 }
 
 function drawTrack(pane) {
-  const { doc, view, paperContext: c, track } = pane;
+  const { view, paperContext: c, track } = pane;
   c.lineJoin = c.lineCap = "round";
   const [below, above] = pane.options.dark ? ["#000", "#ffb000"] : ["#fff", "#b3005e"];
   const width = (least) => Math.max(least, view.scale * 0.04 * least), lines = [[width(5), below], [width(2.5), above]];
-  strokeEach(c, lines, () => track.forEach((cell, k) => {
+  strokeEach(c, lines, () => layWay(pane, track));
+}
+
+// All ways, each so faint that one sees where many go.
+function drawPaths(pane, palette) {
+  const { paths, view, paperContext: c } = pane, shade = css(palette.path, paths.length > 200 ? 0.25 : 0.45);
+  c.lineJoin = c.lineCap = "round";
+  for (const way of paths) strokeEach(c, [[Math.max(1.2, view.scale * 0.08), shade]], () => layWay(pane, way));
+}
+
+// The line of a way from cell to cell, through the corners that it passes.
+function layWay(pane, way) {
+  const { doc, view, paperContext: c } = pane;
+  way.forEach((cell, k) => {
     const [px, py] = pane.pointOf(cell);
     if (!k) return c.moveTo(px, py);
-    const [qx, qy] = pane.pointOf(track[k - 1]), before = track[k - 1], { bend, orientation } = shapeOf(doc);
+    const [qx, qy] = pane.pointOf(way[k - 1]), before = way[k - 1], { bend, orientation } = shapeOf(doc);
     const side = orientation(before % doc.width, Math.floor(before / doc.width));
     const [bx, by] = bend(side, (px - qx) / view.scale, (py - qy) / view.scale);
     if (bx || by) c.lineTo((px + qx) / 2 + bx * view.scale, (py + qy) / 2 + by * view.scale);
     return c.lineTo(px, py);
-  }));
+  });
 }

@@ -20,7 +20,7 @@ const KEYS = [
   ["+ − 0", "zoom in, out, show all"],
   ["P", "plan"],
   ["L", "run live, leave"],
-  ["V W E D R", "tools"],
+  ["V W E D R", "tools; B T break and delay robots that run live"],
   ["Arrows, Enter", "move the cursor, use the tool (Shift: ten cells)"],
   ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"],
   ["Ctrl+O, Ctrl+S", "open, save"],

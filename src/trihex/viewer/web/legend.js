@@ -29,8 +29,9 @@ export class Legend {
     if (live?.known) entries.push(["fog", "not seen", "cell"], ["fog_barrier", "barrier not seen", "cell"]);
     if (live) {
       entries.push(["moving", "moving"], ["waiting", "waiting"], ["final", "arriving"]);
-      if (live.delays) entries.push(["late", "late"]);
-      if (live.last.cut_off) entries.push(["stranded", "cut off"]);
+      if (live.hasLate) entries.push(["late", "late"]);
+      const { cut_off: cutOff, broken } = live.last, words = [cutOff && "cut off", broken && "broken"].filter(Boolean);
+      if (words.length) entries.push(["stranded", words.join(" or ")]);
     } else if (run) entries.push(["moving", "moving"], ["waiting", "waiting"], ["final", "arriving"]);
     else if (doc.robots.length) entries.push(["moving", "robot"]);
     const isStranded = run?.summary.unreachable || stage.still?.robots.state.includes(STRANDED);

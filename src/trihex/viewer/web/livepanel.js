@@ -1,6 +1,6 @@
 // Live panel: how robots are to run live, and the document and the plans to come back to.
 
-import { h } from "./words.js";
+import { h, number } from "./words.js";
 import { button, check, chosenIn, grid, note, numberField, numberIn, row, section, select } from "./controls.js";
 import { arraysOf } from "./documents.js";
 import { Live } from "./live.js";
@@ -60,7 +60,21 @@ export class LivePanel {
     app.growing.end();
     const answer = await app.ask({ op: "live", ...wish, ...app.request }, arraysOf(doc), "Starting…");
     if (!answer || app.doc !== doc) return;
-    this.before = { doc, runs, known };
+    this.#begin(answer, wish, { doc, runs, known });
+    app.say("Robots are running: paint walls in their way.");
+  }
+
+  // Watch a run of a file again: the robots do what they did, until a hand changes something.
+  watch(answer) {
+    const { app } = this, { watched } = answer.header;
+    app.take(answer);
+    this.#begin(answer, watched, { doc: app.doc, runs: app.runs, known: app.fields });
+    app.say(`This run of ${number(watched.steps)} steps is played again. Change something, and it goes another way.`);
+  }
+
+  #begin(answer, wish, before) {
+    const { app } = this, { doc } = before;
+    this.before = before;
     app.clock.rewind();
     app.clock.pause();
     this.run = new Live(app, doc, answer, wish);
@@ -68,8 +82,8 @@ export class LivePanel {
     this.run.adopt(answer);
     app.field.replace({ doc: app.doc, distance: this.run.distance, directions: null });
     app.tools.choose("wall");
-    app.say("Robots are running: paint walls in their way.");
     app.refresh();
+    app.panel.reveal(app.results.element);
   }
 
   // Back to the document and the plans from before.

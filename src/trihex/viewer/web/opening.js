@@ -112,6 +112,7 @@ export class Opening {
     app.clock.rewind();
     app.followed.drop();
     app.say("");
+    if (answer.header.watched) return app.livePanel.watch(answer);
     app.take(answer);
     const next = app.runs[0] ? "Press Play." : app.missing() || "Press Plan.", { width, height } = app.doc;
     app.say(`Opened ${name}: ${number(width)} × ${number(height)} cells. ${next}`);

@@ -36,6 +36,7 @@ export class Pane {
     this.options = {}; // dark, growing, most (distance), arrows, numbers, steps (of directions)
     this.follow = -1;
     this.track = null; // cells of the followed robot
+    this.paths = null; // cells of all robots, or null where they are not shown
     this.cursor = -1;
     this.known = null; // of each cell, whether a robot has seen it; null if all are known
     this.crosses = []; // cells where something was refused

@@ -1,7 +1,7 @@
 // Results: the numbers of plans, or of a run that is under way.
 
 import { h, number, percent, title } from "./words.js";
-import { note, section } from "./controls.js";
+import { check, note, section } from "./controls.js";
 import { Chart } from "./chart.js";
 import { OF_LIVE, OF_PLAN, UNITS } from "./sentences.js";
 
@@ -66,13 +66,17 @@ export class Results {
     this.chart = new Chart(app);
     this.sets = h("div", { class: "sets", "aria-label": "Robots by set" });
     const alone = app.canEdit ? null : note(ALONE);
-    this.element = section("Result", this.table, this.sets, this.sofar, this.chart.element, alone);
+    this.paths = h("input", { type: "checkbox", onchange: () => this.#showPaths() });
+    this.pathsField = check(this.paths, "All paths");
+    this.element = section("Result", this.pathsField, this.table, this.sets, this.sofar, this.chart.element, alone);
   }
 
+  get hasPaths() { return this.paths.checked; }
   get #runs() { return this.app.runs.filter(Boolean); }
 
   show() {
     const runs = this.#runs;
+    this.pathsField.hidden = !runs.length;
     if (this.app.live) return this.#showLive(this.app.live);
     if (runs.length) return this.#showRuns(runs);
     this.table.replaceChildren(note("No plan yet."));
@@ -94,6 +98,14 @@ export class Results {
       note(unitsOf(runs[0])), this.#verdict(runs), conflicts.length ? h("ul", { class: "conflicts" }, conflicts) : null,
     ].filter(Boolean));
     this.chart.draw(runs.map(({ playback }) => playback.curves));
+  }
+
+  #showPaths() {
+    const { app } = this;
+    if (this.hasPaths && this.#runs.some(({ playback }) => !playback.paths())) {
+      app.say("These are too many paths to be drawn all: follow one robot.", true);
+    }
+    app.stage.show();
   }
 
   // One sentence on what two plans differ in.

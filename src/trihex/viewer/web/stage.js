@@ -155,7 +155,8 @@ export class Stage {
   }
 
   #showPane(i, run, growing, most) {
-    const { doc: own, runs, settings, theme, field, followed: { robot }, canEdit } = this.app, pane = this.panes[i];
+    const { doc: own, runs, settings, theme, field, followed: { robot }, results, canEdit } = this.app;
+    const pane = this.panes[i];
     const doc = run ? run.doc : own, { tessellation, neighbourhood } = doc.header;
     const isThere = run && robot >= 0 && robot < run.playback.count;
     pane.take({
@@ -163,6 +164,7 @@ export class Stage {
         steps: settings.steps?.[`${tessellation} ${neighbourhood}`] },
       follow: robot,
       track: isThere ? run.playback.robot(robot).rows.map(({ cell }) => cell) : null,
+      paths: run && results.hasPaths ? run.playback.paths() : null,
       crosses: [],
     });
     const things = `${plural(doc.robots.length, "robot")}, ${plural(doc.destinations.length, "destination")}`;
