@@ -16,6 +16,7 @@ from trihex.viewer.bundle import Bundle
 # A page holds some 20 bytes a cell and 50 a robot.
 MAX_CELLS = 2**24
 MAX_ROBOTS = 2**21
+MAX_SQUARES = 2**26  # of the ground beneath
 
 _Whole = Annotated[int, Field(ge=0, le=2**30)]
 _Side = Annotated[int, Field(ge=1, le=MAX_CELLS)]
@@ -100,6 +101,19 @@ def document_of(draft: Draft) -> Bundle:
         "robots": _cells(draft.robots),
     }
     return Bundle(header, arrays)
+
+
+def ground_of(draft: Draft) -> Bundle | tuple[None, dict[str, NDArray[Any]]]:
+    """Return what stands beneath the cells of a draft, 8 squares a byte, for the page to draw; None where nothing does.
+
+    A raster that is too large for a page is left out.
+    """
+    ground = draft.ground
+    if ground is None or ground.occupied.size > MAX_SQUARES:
+        return None, {}
+    rows, columns = ground.occupied.shape
+    header = {"rows": rows, "columns": columns, "square": ground.square, "corner": list(ground.corner)}
+    return Bundle(header, {"ground": np.packbits(ground.occupied)})
 
 
 def draft_of_document(header: Any, arrays: dict[str, NDArray[Any]]) -> Draft:
