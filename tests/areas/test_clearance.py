@@ -58,11 +58,9 @@ class Pairs:
         self.cells, (self.a, self.to_a, self.b, self.to_b) = cells, number.T
         self.point = np.stack(tessellation.centre_of_cell(cells[..., 0], cells[..., 1]), axis=-1)
         # Moves past one vertex, and those to and fro between two cells, may not overlap in time.
-        vertices = crossing == "forbid" and np.array(
-            [one is not None and one == other for *_, one, _, _, other in rows]
-        )
+        same_vertex = np.array([one is not None and one == other for _, _, one, _, _, other in rows])
         exchanges = (self.a == self.to_b) & (self.b == self.to_a) & (self.a != self.to_a)
-        self.excludes = vertices | exchanges
+        self.excludes = exchanges | (same_vertex if crossing == "forbid" else False)
 
     def duration(self, tessellation):
         """Return how many ticks the actions of both robots last."""
@@ -129,7 +127,7 @@ def test_the_least_distance_is_that_of_all_pairs_of_moves(name, neighbourhood, c
 
 @pytest.mark.parametrize(("name", "neighbourhood"), KINDS)
 def test_where_nobody_follows_no_timing_brings_robots_nearer(name, neighbourhood):
-    """Whatever they do, each is on the segment between the cells that it owns; times and speeds are any real numbers."""
+    """Each is on the segment between the cells that it owns, whatever it does; times and speeds are real numbers."""
     tessellation = Tessellation(name, neighbourhood)
     pairs, least = pairs_of(name, neighbourhood), least_distance(tessellation, following="forbid")
     together = pairs.are_legal(1.0, 1.0, 0.0, "forbid")

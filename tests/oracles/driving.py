@@ -61,7 +61,7 @@ def tracks_of_adversary(plan, pace):
 
 
 def moves_before(record):
-    """For each move those that must have ended: the last out of its target, into its destination and past its vertex."""
+    """For each move those that must have ended: the last out of its target, into its destination, past its vertex."""
     before, last = {}, {}
     for move in record.moves:
         wanted = [("out of", move.target), ("into", move.target), ("past", move.vertex)]
@@ -104,7 +104,7 @@ def random_pace(rng):
 
 
 def random_plan_in_metres(tessellation, following, seed, most_robots=30):
-    """Return a random plan of robots with the greatest radius that cells of a metre allow."""
+    """Return a random plan of robots with the greatest radius that cells of a metre allow, by planners in turn."""
     rng = np.random.default_rng(seed)
     barriers = rng.random(rng.integers(4, 11, size=2)) < 0.15
     barriers.flat[rng.integers(barriers.size)] = False
@@ -114,7 +114,8 @@ def random_plan_in_metres(tessellation, following, seed, most_robots=30):
     exits = rng.choice(free, size=min(2, free.size), replace=False)
     robots = rng.choice(free, size=min(most_robots, free.size // 3), replace=False)
     scenario = th.Scenario(area, exits, robots, following=following, clock=tessellation.clock)
-    plan = wandering_plan(scenario, seed)
+    planner = ("fcost", "greedy", None)[seed % 3]
+    plan = th.make_plan(scenario, planner) if planner else wandering_plan(scenario, seed)
     assert plan is not None
     return plan
 
