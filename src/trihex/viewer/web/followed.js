@@ -8,6 +8,9 @@ const HINT = "Click a robot to see its path, its moves d, its waits w and its ti
 
 const nameOf = (doc, cell) => `(${cell % doc.width}, ${Math.floor(cell / doc.width)})`;
 
+// The row that a robot has reached by a step.
+const indexAt = (rows, step) => rows.findLastIndex((row) => row.step <= step);
+
 export class Followed {
   constructor(app) {
     this.app = app;
@@ -50,7 +53,7 @@ export class Followed {
     if (!shown.length) return this.#tell(`Robot ${robot} starts at ${nameOf(doc, doc.robots[robot])}.`);
     this.text.replaceChildren(...shown.map(({ run, track }, i) => this.#tableOf(run, track, i, shown.length > 1)));
     if (!this.centred.checked) return;
-    for (const { track: { rows }, pane } of shown) pane.reveal(rows[Math.min(app.clock.step, rows.length - 1)].cell);
+    for (const { track: { rows }, pane } of shown) pane.reveal(rows[indexAt(rows, app.clock.step)].cell);
   }
 
   // Keep a robot that runs live in view.
@@ -69,9 +72,9 @@ export class Followed {
   }
 
   #tableOf(run, { rows, hasArrived }, i, isNamed) {
-    const { step } = this.app.clock, now = rows[Math.min(step, rows.length - 1)], last = rows[rows.length - 1];
-    const end = hasArrived ? `arrived at step ${rows.length - 1}` : "cannot arrive";
-    const doing = rows[step + 1] ? `next ${rows[step + 1].action}` : end;
+    const k = indexAt(rows, this.app.clock.step), now = rows[k], last = rows[rows.length - 1];
+    const end = hasArrived ? `arrived at step ${last.step}` : "cannot arrive";
+    const doing = rows[k + 1] ? `next ${rows[k + 1].action}` : end;
     const words = `robot ${this.robot} at ${nameOf(run.doc, now.cell)}, ${doing}`;
     const line = (label, of) => h("tr", {}, h("th", { scope: "row" }, label), h("td", {}, number(of(now))),
       h("td", {}, number(of(last))));
