@@ -18,6 +18,7 @@ from .coverage import (
 )
 from .entries import (
     entries_per_step as entries_per_step,
+    ways_into_destinations as ways_into_destinations,
 )
 from .frame import (
     Frame as Frame,

@@ -28,6 +28,7 @@ KERNELS_OF: dict[str, tuple[str, ...]] = {
     "astar": _ASTAR,
     "optimal": (*_FCOST, *_OPTIMUM),
     "audit": ("judging.audit", "plans.replay"),
+    "owners": ("judging.timed",),
     "bound": (*_BOUND, "bounds.steps", "bounds.units"),
     "execution": _EXECUTION,
     "trial": (*_EXECUTION, "running.sensing"),

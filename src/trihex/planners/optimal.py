@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from trihex.areas import Scenario
 from trihex.errors import PlanError, check_choice
 from trihex.fields import NScheme
 from trihex.kernels.codes import NOT_REACHED
@@ -59,12 +60,14 @@ def plan_optimal(
     Raises
     ------
     PlanError
-        If there is no such objective.
+        If there is no such objective, or the rules are no pure flow: moves of different durations (clock "costs" on
+        triangles with 12 neighbours and squares with 8), or following "forbid".
     TooLargeError
         If the time-expanded graph would take more than `memory_limit`.
     """
     check_choice("objective", objective, OBJECTIVES, PlanError)
     scenario = n_scheme.scenario
+    _check_is_flow(scenario)
     if objective == "time" and scenario.waiting_cost == 0:
         # Nobody needs a detour where waiting is free: greedy descent pays the distances, which no plan can beat. (The
         # flow would see the same, but among endlessly many layers of equal cost.)
@@ -77,6 +80,22 @@ def plan_optimal(
     order = np.argsort(network.value[cells], kind="stable")
     flow = _find_flow(n_scheme, network, cells[order], going[order], progress=progress, memory_limit=memory_limit)
     return make_plan_of_flow(flow, going[order], proves=objective == "time")
+
+
+def _check_is_flow(scenario: Scenario) -> None:
+    """Raise PlanError where it is more than the flow through a node of each step that robots must not do."""
+    if scenario.is_stepwise:
+        return
+    rule = "following='allow', not 'forbid'"
+    if scenario.following == "allow":
+        *some, last = np.unique(scenario.duration_of_direction).tolist()
+        rule = (
+            f"moves that last equally long, not {', '.join(map(str, some))} and {last} ticks as by clock='costs' here"
+        )
+    raise PlanError(
+        f"planner 'optimal' needs {rule}, which is no pure flow; the lower bound in the report of another planner tells "
+        "how far its plan is from the optimum at most"
+    )
 
 
 def _find_flow(
