@@ -48,7 +48,11 @@ def test_a_place_without_a_size_asks_for_it_and_shows_its_ground(open_viewer, fo
         x, y = tessellation.cell_at_point(px, py)
         if not (0 <= x < draft.area.width and 0 <= y < draft.area.height) or y * draft.area.width + x in marked:
             continue
-        near = draft.ground.occupied_at(px + 0.06 * np.array([-1, 0, 1, 0, 0]), py + 0.06 * np.array([0, -1, 0, 1, 0]))
+        near = draft.area.ground.occupied_at(
+            *draft.area.metres.point_to_metres(
+                px + 0.06 * np.array([-1, 0, 1, 0, 0]), py + 0.06 * np.array([0, -1, 0, 1, 0])
+            )
+        )
         others = tessellation.cell_at_point(px + 0.06 * np.array([-1, 0, 1, 0]), py + 0.06 * np.array([0, -1, 0, 1]))
         if near.any() != near.all() or np.ptp(others[0]) or np.ptp(others[1]):
             continue

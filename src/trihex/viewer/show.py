@@ -46,6 +46,7 @@ def show_plan(report: Report, n_scheme: NScheme, name: str = "") -> Bundle:
             "pitch": layout.pitch,
             "offsets": layout.offset_of_direction.tolist(),
             "costs": tessellation.cost_of_direction.tolist(),
+            "durations": tessellation.duration_of_direction.tolist(),
             "names": tessellation.direction_names,
         },
     }

@@ -8,6 +8,9 @@ import { OF_ROBOT } from "./sentences.js";
 
 const HINT = "Click a robot to see its path, its moves d, its waits w and its time t.";
 
+// The row that a robot has reached by a step.
+const indexAt = (rows, step) => rows.findLastIndex((row) => row.step <= step);
+
 export class Followed {
   constructor(app) {
     this.app = app;
@@ -51,7 +54,7 @@ export class Followed {
     if (!shown.length) return this.#tell(`${title(this.#name)} starts at ${nameOfCell(doc, doc.robots[robot])}.`);
     this.text.replaceChildren(...shown.map(({ run, track }, i) => this.#tableOf(run, track, i, shown.length > 1)));
     if (!this.centred.checked) return;
-    for (const { track: { rows }, pane } of shown) pane.reveal(rows[Math.min(app.clock.step, rows.length - 1)].cell);
+    for (const { track: { rows }, pane } of shown) pane.reveal(rows[indexAt(rows, app.clock.step)].cell);
   }
 
   // Keep a robot that runs live in view.
@@ -70,9 +73,9 @@ export class Followed {
   }
 
   #tableOf(run, { rows, hasArrived }, i, isNamed) {
-    const { step } = this.app.clock, now = rows[Math.min(step, rows.length - 1)], last = rows[rows.length - 1];
-    const end = hasArrived ? `arrived at step ${rows.length - 1}` : "cannot arrive";
-    const doing = rows[step + 1] ? `next ${rows[step + 1].action}` : end;
+    const k = indexAt(rows, this.app.clock.step), now = rows[k], last = rows[rows.length - 1];
+    const end = hasArrived ? `arrived at step ${last.step}` : "cannot arrive";
+    const doing = rows[k + 1] ? `next ${rows[k + 1].action}` : end;
     const words = `${this.#name} at ${nameOfCell(run.doc, now.cell)}, ${doing}`;
     const line = (label, of) => h("tr", { title: OF_ROBOT[label] }, h("th", { scope: "row" }, label),
       h("td", {}, number(of(now))), h("td", {}, number(of(last))));

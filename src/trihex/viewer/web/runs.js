@@ -9,7 +9,7 @@ export function runOf({ header, arrays }, doc = null, ground = null) {
   return { ...header, playback: new Playback({ header, arrays }, place), doc: place };
 }
 
-const FIELD_RULES = ["tessellation", "neighbourhood", "costs", "corners"];
+const FIELD_RULES = ["tessellation", "neighbourhood", "costs", "corners", "clock"];
 
 // Whether the field of two documents is the same.
 export const sameField = (one, other) => one === other || (one.barriers === other.barriers &&
