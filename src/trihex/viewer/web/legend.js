@@ -9,7 +9,7 @@ const TO_GO = "The least cost of a way to a destination, in time units, for a ro
 export class Legend {
   constructor(app) {
     this.app = app;
-    this.element = h("div", { class: "legend", "aria-label": "Legend" });
+    this.element = h("div", { class: "legend", role: "group", "aria-label": "Legend" });
   }
 
   show() {

@@ -64,7 +64,7 @@ export class Results {
     this.table = h("div", { class: "results" });
     this.sofar = h("div", { class: "sofar", title: SO_FAR });
     this.chart = new Chart(app);
-    this.sets = h("div", { class: "sets", "aria-label": "Robots by set" });
+    this.sets = h("div", { class: "sets", role: "group", "aria-label": "Robots by set" });
     const alone = app.canEdit ? null : note(ALONE);
     this.paths = h("input", { type: "checkbox", onchange: () => this.#showPaths() });
     this.pathsField = check(this.paths, "All paths");
