@@ -213,8 +213,8 @@ def complete(draft: Draft, *uses: str, needs_robots: bool = True) -> Scenario:
     from dataclasses import replace
 
     from trihex.fields import field_kernels
-    from trihex.kernels.needs import use_of
     from trihex.kernels.preparing import prepare
+    from trihex.planners import uses_of
 
     if draft.destinations is None:
         raise wrong_use("there is no destination: add --destination X,Y")
@@ -223,10 +223,8 @@ def complete(draft: Draft, *uses: str, needs_robots: bool = True) -> Scenario:
     known = draft if draft.random_count is None else replace(draft, random_count=None)
     scenario = known.complete()
     if uses and (draft.random_count or 0) <= draft.area.free_count:  # or they cannot be drawn, which is told at once
-        prepare(
-            *(use_of(use, scenario.is_stepwise) for use in uses),
-            field_kernels(draft.area.tessellation, scenario.corners),
-        )
+        needed = [need for use in uses for need in uses_of(use, scenario)]
+        prepare(*needed, field_kernels(draft.area.tessellation, scenario.corners))
     return scenario if known is draft else draft.complete()
 
 

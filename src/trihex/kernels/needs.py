@@ -15,7 +15,7 @@ _GREEDY = (*_DIRECTIONS, "planners.greedy", "planners.cells", "planners.rows", "
 _FCOST = (*_GREEDY, *_REPAIR, "planners.fcost", "planners.slots", "planners.lanes", "planners.laying")
 _TIMELY = (*_DIRECTIONS, "planners.timely", "planners.tick_rows", "planners.slots", "plans.replay")
 _ASTAR = (*_FIELD, "areas.moves", "planners.astar", "planners.reservations", "plans.replay")
-_OPTIMUM = ("fields.steps", "optimum.paths", "optimum.single", "optimum.levels", "optimum.earliest", "optimum.laid")
+_OPTIMUM = (*_FIELD, "areas.moves", "fields.steps", "optimum.paths", "optimum.single", "plans.replay")
 _BOUND = ("areas.moves", "fields.steps", "bounds.cuts", "bounds.gates", "bounds.meetings", "bounds.serving")
 _EXECUTION = (*_REPAIR, "running.stepping", "running.lines")
 
@@ -29,7 +29,9 @@ KERNELS_OF: dict[str, tuple[str, ...]] = {
     "astar": _ASTAR,
     "timely greedy": _TIMELY,
     "timely fcost": (*_TIMELY, *_REPAIR, "planners.lanes", "planners.laying"),
-    "optimal": (*_FCOST, *_OPTIMUM),
+    "optimal": _OPTIMUM,  # and, where robots crowd, one of two more: `trihex.planners.uses_of`
+    "optimal_levels": (*_OPTIMUM, "optimum.levels"),
+    "optimal_earliest": (*_OPTIMUM, *_FCOST, "optimum.earliest", "optimum.laid"),
     "audit": ("judging.audit", "plans.replay"),
     "timely audit": ("judging.timed", "plans.replay"),
     "bound": (*_BOUND, "bounds.steps", "bounds.units"),

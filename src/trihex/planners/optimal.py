@@ -13,6 +13,7 @@ from trihex.areas import Scenario
 from trihex.errors import PlanError, check_choice
 from trihex.fields import NScheme
 from trihex.kernels.codes import NOT_REACHED
+from trihex.kernels.preparing import prepare
 from trihex.optimum import (
     OBJECTIVES,
     Flow,
@@ -103,6 +104,7 @@ def _find_flow(
     flow = make_flow_singly(network, cells, **options)
     if flow is not None:
         return flow
+    prepare("optimal_earliest" if network.has_equal_steps else "optimal_levels")
     if network.has_equal_steps:
         return make_earliest_flow(network, cells, robots, plan_fcost(n_scheme), **options)
     return make_flow_by_levels(network, cells, **options)

@@ -52,6 +52,20 @@ def planner_named(name: str) -> Planner:
     return planner
 
 
+def uses_of(name: str, scenario: Scenario) -> list[str]:
+    """Return what a planner needs to be compiled for a scenario, as keys of `trihex.kernels.needs.KERNELS_OF`.
+
+    Where time is not in steps alone others go from tick to tick; what `optimal` does where robots crowd depends on
+    whether all steps cost the same.
+    """
+    if name != "optimal":
+        return [use_of(name, scenario.is_stepwise)]
+    if scenario.waiting_cost == 0:
+        return [name, "greedy"]
+    is_equal = (scenario.area.tessellation.cost_of_direction == scenario.waiting_cost).all()
+    return [name, "optimal_earliest" if is_equal else "optimal_levels"]
+
+
 def options_of(name: str) -> dict[str, Any]:
     """Return the options of the planner `name` with their defaults.
 
@@ -165,7 +179,7 @@ def make_plan(
     plan = planner_named(planner)
     check_choice("record", record, RECORDS, PlanError)
     check_planner_options(planner, options)
-    prepare(use_of(planner, scenario.is_stepwise), field_kernels(scenario.area.tessellation, scenario.corners))
+    prepare(*uses_of(planner, scenario), field_kernels(scenario.area.tessellation, scenario.corners))
     if n_scheme is None:
         n_scheme = make_n_scheme(scenario)
     elif n_scheme.scenario is not scenario and n_scheme.scenario != scenario:

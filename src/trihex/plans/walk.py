@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,15 +26,17 @@ class Walk:
     ----------
     step : int
         Where they are, from 0 on.
-    site : int32 array, shape (robots,)
-        The site whose centre each was at last; whoever has no further actions stays.
     """
 
     def __init__(self, plan: Plan) -> None:
         self.plan, self.step = plan, 0
-        self.site: NDArray[np.int32] = plan.scenario.area.layout.cell_to_site(plan.scenario.robots)
         # Where moves last longer than a step, 16 bytes a robot tell which action it does, and since when.
         self._cursor = None if plan.has_steps else np.stack([plan.first_action[:-1], 0 * plan.first_action[:-1]])
+
+    @cached_property
+    def site(self) -> NDArray[np.int32]:
+        """The site whose centre each robot was at last; whoever has no further actions stays, shape (robots,)."""
+        return self.plan.scenario.area.layout.cell_to_site(self.plan.scenario.robots)
 
     def go_to(self, step: int) -> None:
         """Go on to a step that is not before this one."""

@@ -42,8 +42,9 @@ def count_steps(start, actions, cost, waiting_cost, duration, arrived, distance,
                 to = site_after(site, i, actions)
                 price = 0 if action == JUMP else cost[action]
             if arrives:
+                paid = price if duration[action] == 1 else 1  # what lasts longer costs as much as it lasts
                 for later in range(step, step + duration[action]):
-                    sums.spent[later] += price // duration[action]
+                    sums.spent[later] += paid
                 sums.lost[step] += price
                 if distance[site] != NOT_REACHED and distance[to] != NOT_REACHED:
                     sums.lost[step] += distance[to] - distance[site]
