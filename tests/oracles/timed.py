@@ -106,9 +106,7 @@ class TimedProgram:
             return
         forbids = self.scenario.following == "forbid"
         self._own("cell", cell, first, last if forbids else middle, deed)
-        self._own(
-            "goal" if other in self.destinations else "cell", other, first if forbids else middle, last, deed
-        )
+        self._own("goal" if other in self.destinations else "cell", other, first if forbids else middle, last, deed)
         vertex = self.rules.vertex(cell, other)
         if vertex is not None and self.scenario.crossing == "forbid":
             self._own("vertex", vertex, first, last, deed)
