@@ -27,13 +27,17 @@ class Record:
     As text they are one line, whatever they hold.
 
     Two records are equal when they are of one class and all fields are equal, arrays element by element.
-    Derived values are cached properties; they take no part in the comparison.
+    Derived values are cached properties; they and fields declared so take no part in the comparison.
     """
 
     def __eq__(self, other: object) -> bool:
         if type(self) is not type(other):
             return NotImplemented
-        return all(_is_same(getattr(self, f.name), getattr(other, f.name)) for f in fields(self))  # type: ignore[arg-type]
+        return all(
+            _is_same(getattr(self, f.name), getattr(other, f.name))
+            for f in fields(self)  # type: ignore[arg-type]
+            if f.compare
+        )
 
     def __init_subclass__(cls, **more: Any) -> None:
         super().__init_subclass__(**more)

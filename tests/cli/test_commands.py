@@ -31,6 +31,7 @@ SUMMARY_KEYS = [
         "robots",
         "arrived",
         "unreachable",
+        "arrivals_of_exit",
         "seed",
         "planner",
         "waiting_cost",

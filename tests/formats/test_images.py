@@ -90,8 +90,8 @@ def test_bombs_and_torn_files_are_refused(tmp_path, content, message):
     [
         ({"threshold": 1.5}, r"threshold must be between 0 and 1, not 1\.5"),
         ({"resolution": 0.0}, r"resolution must be between 1e-9 and 1e9 metres, not 0"),
-        ({"resolution": 0.1}, "robot_radius and resolution need cell_size"),
-        ({"robot_radius": 0.1}, "robot_radius and resolution need cell_size"),
+        ({"resolution": 0.1}, "resolution needs cell_size, the edge step of a cell in metres, or robot_radius"),
+        ({"robot_radius": 0.1}, "an image has no measure"),
         ({"cell_size": 1.0}, "say how many metres a pixel is wide"),
         ({"unknown": "fre"}, "unknown must be one of barrier, free, not 'fre'; did you mean 'free'"),
     ],

@@ -6,7 +6,17 @@ import numpy as np
 import pytest
 import shapely
 
-from trihex import FormatError, TooLargeError, read_area, read_scenario
+from trihex import (
+    AreaError,
+    FormatError,
+    TooLargeError,
+    make_plan,
+    read_area,
+    read_plan,
+    read_scenario,
+    write_plan,
+    write_scenario,
+)
 from trihex.formats import read_draft
 
 HALL = [[[0, 0], [10, 0], [10, 6], [0, 6], [0, 0]], [[4, 2], [6, 2], [6, 4], [4, 4], [4, 2]]]
@@ -145,10 +155,8 @@ def test_what_lies_outside_the_hall_is_refused(tmp_path):
     path = write(tmp_path / "a.json", hall, feature("robot", "Point", [30, 1]))
     with pytest.raises(FormatError, match=r"a robot: point \(30, 1\) metres lies outside the area"):
         read_draft(path, **SQUARES)
-    write(path, hall, feature("destination", "LineString", [[4.5, 2.5], [5.5, 2.5]]))
-    with pytest.raises(
-        FormatError, match=r"a destination between \(4.5, 2.5\) and \(5.5, 2.5\) metres touches no free"
-    ):
+    write(path, hall, feature("destination", "LineString", [[4.8, 3], [5.2, 3]]))
+    with pytest.raises(FormatError, match=r"a destination between \(4.8, 3\) and \(5.2, 3\) metres touches no free"):
         read_draft(path, **SQUARES)
     with pytest.raises(FormatError, match="a place drawn by polygons is measured in metres"):
         read_draft(path)
@@ -226,15 +234,102 @@ def test_a_place_in_degrees_or_kilometres_is_told(tmp_path, size):
         read_area(write(tmp_path / "a.geojson", feature(None, "Polygon", corner)), **SQUARES)
 
 
-def test_an_exit_on_the_wall_is_told_where_the_nearest_free_cell_is(tmp_path):
-    exit_ = feature("destination", "LineString", [[10, 2.2], [10, 2.8]])
+HALL_ONLY = [[0, 0], [10, 0], [10, 6], [0, 6], [0, 0]]
+ON_THE_EAST_WALL = {
+    "a line on it": ("LineString", [[10, 1.2], [10, 3.2]]),
+    "a strip in it": ("Polygon", [[[10, 1.2], [10.2, 1.2], [10.2, 3.2], [10, 3.2], [10, 1.2]]]),
+    "a strip before it": ("Polygon", [[[9.8, 1.2], [10, 1.2], [10, 3.2], [9.8, 3.2], [9.8, 1.2]]]),
+    "a line beyond it": ("LineString", [[10.3, 1.2], [10.3, 3.2]]),
+}
+
+
+@pytest.mark.parametrize("radius", [0.0, 0.12])
+@pytest.mark.parametrize("tessellation", ["square", "hexagonal", "triangular"])
+@pytest.mark.parametrize("drawn", ON_THE_EAST_WALL)
+def test_an_exit_on_a_wall_is_the_row_of_free_cells_that_leads_through_it(tmp_path, drawn, tessellation, radius):
+    path = write(
+        tmp_path / "a.geojson", feature(None, "Polygon", [HALL_ONLY]), feature("destination", *ON_THE_EAST_WALL[drawn])
+    )
+    step = {"square": 0.55, "hexagonal": 0.5, "triangular": 0.75}[tessellation]
+    draft = read_draft(path, tessellation, cell_size=step, robot_radius=radius)
+    area, exits = draft.area, set(draft.destinations.tolist())
+    x, y = area.cell_to_metres(sorted(exits))
+    # They lie side by side, as many as there is room for, and nothing free lies between them and the wall.
+    assert (y > 1.2 - step / 2).all() and (y < 3.2 + step / 2).all()
+    pitch = 1.5 * step if tessellation == "triangular" else step
+    assert 2 / pitch - 1 <= len(exits) <= 2 / pitch + 2
+    free = np.flatnonzero(~area.barriers)
+    free_x, free_y = area.cell_to_metres(free)
+    for cell, east, north in zip(sorted(exits), x, y, strict=True):
+        beyond = set(free[(abs(free_y - north) < step / 4) & (free_x > east + step / 4)].tolist())
+        assert beyond <= exits, area.name_of_cell(cell)
+
+
+def test_an_exit_on_a_wall_along_columns_of_hexagons_is_as_wide_as_drawn(tmp_path):
+    """Every other column begins half a cell deeper: it leads through all the same."""
+    exit_ = feature("destination", "LineString", [[3, 6], [6, 6]])
+    path = write(tmp_path / "a.geojson", feature(None, "Polygon", [HALL_ONLY]), exit_)
+    draft = read_draft(path, "hexagonal", cell_size=0.5, robot_radius=0.12)
+    x = draft.destinations % draft.area.width
+    assert sorted(x.tolist()) == list(range(x.min(), x.max() + 1)) and 6 <= x.size <= 7
+
+
+def test_an_exit_leads_into_the_room_that_it_is_drawn_in(tmp_path):
+    """The cells of the room beside it, behind a wall, may be as near."""
+    wall = feature("obstacle", "LineString", [[5, 6], [5, 1]])
+    exit_ = feature("destination", "LineString", [[5.05, 6], [5.25, 6]])
+    path = write(tmp_path / "a.geojson", feature(None, "Polygon", [HALL_ONLY]), wall, exit_)
+    for step in (0.81, 0.87, 0.9, 0.95, 1.0):
+        draft = read_draft(path, "hexagonal", cell_size=step, robot_radius=0.2)
+        assert (draft.area.cell_to_metres(draft.destinations)[0] > 5).all()
+
+
+def test_an_exit_deep_in_a_wall_is_told_where_the_nearest_free_cell_is(tmp_path):
+    exit_ = feature("destination", "LineString", [[10.7, 2.2], [10.7, 2.8]])
     path = write(tmp_path / "a.geojson", feature(None, "Polygon", HALL), exit_)
-    with pytest.raises(FormatError, match=r"; the nearest is \(8, 3\) at \(8\.5, 2\.5\) metres, its centre 1\.5 "):
+    with pytest.raises(
+        FormatError, match=r"none leads through it; the nearest is \(8, 3\) at \(8\.5, 2\.5\) metres, its c"
+    ):
         read_draft(path, **SQUARES)
-    # The recipe of docs/metric.md: drawn into the place by one and a half cells, it is reached.
     exit_ = feature("destination", "Polygon", [[[8.5, 2.2], [10, 2.2], [10, 2.8], [8.5, 2.8], [8.5, 2.2]]])
     draft = read_draft(write(path, feature(None, "Polygon", HALL), exit_), **SQUARES)
     assert [draft.area.name_of_cell(cell) for cell in draft.destinations] == ["(8, 3)"]
+
+
+def named(kind, type_, coordinates, name):
+    return feature(kind, type_, coordinates) | {"properties": {"kind": kind, "name": name}}
+
+
+def test_names_of_exits_are_kept_and_survive_files(tmp_path):
+    features = [
+        feature(None, "Polygon", HALL),
+        named("destination", "LineString", [[10, 1.2], [10, 2.8]], 'east "door" 日'),
+        named("destination", "Point", [1.5, 1.5], 7),
+        named("destination", "Point", [1.5, 2.5], "7"),
+        named("destination", "Point", [2.5, 4.5], None),
+    ]
+    scenario = read_scenario(write(tmp_path / "a.geojson", *features), **SQUARES)
+    area = scenario.area
+    zones = {zone.name: [area.name_of_cell(cell) for cell in zone.cells.tolist()] for zone in area.zones}
+    assert zones == {'east "door" 日': ["(8, 3)", "(8, 4)"], "7": ["(1, 3)", "(1, 4)"]}
+    assert area.cells_of_zone("7").tolist() == [31, 41] and scenario.destinations.size == 5
+    write_scenario(scenario, tmp_path / "s.toml")
+    assert read_scenario(tmp_path / "s.toml").area.zones == area.zones
+    write_plan(make_plan(scenario), tmp_path / "p.npz")
+    assert read_plan(tmp_path / "p.npz").scenario.area.zones == area.zones
+    with pytest.raises(
+        AreaError, match=r"zone must be one of east \"door\" 日, 7, not 'east dor'; did you mean 'east \"d"
+    ):
+        area.cells_of_zone("east dor")
+
+
+@pytest.mark.parametrize("name", ["a\nb", " ", 1.5, ["a"], "x" * 201])
+def test_names_that_are_no_line_of_text_are_refused(tmp_path, name):
+    path = write(
+        tmp_path / "a.geojson", feature(None, "Polygon", HALL), named("destination", "Point", [1.5, 1.5], name)
+    )
+    with pytest.raises(FormatError, match="feature 1: name of a zone must be a line of 1 to 200 characters, not"):
+        read_draft(path, **SQUARES)
 
 
 @pytest.mark.parametrize(

@@ -79,6 +79,12 @@ def test_events_as_people_write_them(tmp_path):
         '[[event]]\nstep = 3\nevent = "late"\nrobot = 0\nsteps = 4\n'
     )
     assert th.read_events(path) == (Event(2, "move", (1, 2), (3, 4)), Event(3, "late", robot=0, steps=4))
+    door = Event(20, "close", zone='the "north" door, left')
+    path.write_text("[[event]]\nstep = 20\nevent = 'close'\nzone = 'the \"north\" door, left'\n")
+    assert th.read_events(path) == (door,)
+    path = tmp_path / "events.csv"
+    path.write_text('step,event,zone\n20,close,"the ""north"" door, left"\n')
+    assert th.read_events(path) == (door,)
 
 
 @pytest.mark.parametrize(
@@ -92,6 +98,8 @@ def test_events_as_people_write_them(tmp_path):
         ("step,event,x,y\n1,barrier,1,\n", "line 2: x and y must come together"),
         ("step,event,x,y\n1,leave,1,2\n", "line 2: event 'leave' at step 1 takes robot"),
         ("step,event,x,y\n,barrier,1,2\n", "line 2: step is missing"),
+        ("step,event,zone\n1,close,\x7f\n", "line 2: event 'close' at step 1: name of a zone must be a line"),
+        ("step,event,zone\n1,close," + 200_000 * "x", "is no CSV: field larger than field limit"),
         ("step,event,x,y\n0,barrier,1,2\n", "line 2: step of an event must be a whole number from 1"),
     ],
 )

@@ -32,6 +32,7 @@ def test_the_summary_says_it_all():
         "robots": 4,
         "arrived": 3,
         "unreachable": 1,
+        "arrivals_of_exit": {},
         "seed": 5,
         "planner": "hand",
         "waiting_cost": 10,

@@ -17,8 +17,12 @@ TIMES = list(product(("steps", "costs"), ("allow", "forbid")))
 
 
 def crowded_scenario(seed, *, sides=(3, 6), most_robots=10):
-    """Return a scenario in which waiting costs as is usual, for `with_time`."""
-    return random_scenario(seed, sides=sides, most_robots=most_robots, waiting_costs=(None,))
+    """Return a scenario with robots in which waiting costs as is usual, for `with_time`."""
+    while True:
+        scenario = random_scenario(seed, sides=sides, most_robots=most_robots, waiting_costs=(None,))
+        if scenario.robot_count:
+            return scenario
+        seed += 100_000
 
 
 def main():

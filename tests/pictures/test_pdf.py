@@ -3,6 +3,7 @@
 import re
 import sys
 import zlib
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -64,8 +65,9 @@ def test_the_same_picture_is_the_same_file(tmp_path):
 def test_large_areas_and_what_stands_in_the_world_are_images(tmp_path):
     small = saved(th.picture_of_area(AREA, title="", legend=False), tmp_path)
     large = saved(th.picture_of_area(th.Area("square", np.zeros((200, 200))), width=300, title=""), tmp_path)
-    ground = th.areas.Ground(np.array([[False, True]]), 0.5, (0.0, 0.0))
-    world = saved(th.picture_of_area(AREA, title="", legend=False, ground=ground), tmp_path)
+    ground = th.areas.RasterGround(np.array([[False, True]]), 0.5)
+    framed = replace(AREA, frame=th.Frame(1.0))
+    world = saved(th.picture_of_area(framed, title="", legend=False, ground=ground), tmp_path)
     assert [b"/Subtype /Image" in content for content in (small, large, world)] == [False, True, True]
 
 

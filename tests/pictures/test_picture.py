@@ -9,7 +9,7 @@ import shapely
 from PIL import Image
 
 import trihex as th
-from trihex.areas import TESSELLATIONS, Area, Ground, Scenario, Tessellation
+from trihex.areas import TESSELLATIONS, Area, RasterGround, Scenario, Tessellation
 from trihex.errors import FormatError, TooLargeError
 from trihex.fields import make_d_scheme, make_n_scheme
 from trihex.kernels.codes import WAIT
@@ -393,10 +393,10 @@ def test_ramps_grow_darker_all_the_way(ramp, sight):
 def test_a_place_in_a_large_nowhere_is_cropped_and_shows_the_same(tessellation):
     barriers = np.ones((40, 50), dtype=bool)
     barriers[9:20, 13:30] = th.make_random_area(tessellation, 11, 17, density=0.1, seed=2).barriers
-    area = th.Area(tessellation, barriers, "yard")
+    area = th.Area(tessellation, barriers, "yard", th.Frame(0.5, (3.0, 8.0), 0.4))
     free = np.flatnonzero(~area.barriers)
     plan = th.make_plan(th.Scenario(area, free[:1], th.random_robots(area, 40, 3, avoid=free[:1])), "greedy")
-    ground = Ground(np.random.default_rng(1).random((160, 200)) < 0.3, 0.5)
+    ground = RasterGround(np.random.default_rng(1).random((160, 200)) < 0.3, 0.25, (3.0, 8.0), 0.4)
     part = th.picture_of_plan(plan, title="", legend=False, ground=ground, crop=True).scene
     left, top = 10, 6  # two cells beside what is free, and even
     assert part.colour_of_cell.shape == (20 + 2 - top, 30 + 2 - left)
@@ -409,7 +409,9 @@ def test_a_place_in_a_large_nowhere_is_cropped_and_shows_the_same(tessellation):
     np.testing.assert_array_equal(
         part.colours[part.colour_of_cell], whole.colours[whole.colour_of_cell][y + top, x + left]
     )
-    np.testing.assert_array_equal(part.ground.occupied_at(px, py), ground.occupied_at(px + dx, py + dy))
+    np.testing.assert_allclose(
+        part.area.frame.point_to_metres(px, py), area.frame.point_to_metres(px + dx, py + dy), atol=1e-9
+    )
     discs = ([m for m in scene.marks if isinstance(m, Discs) and m.x.size == 40] for scene in (part, whole))
     for one, other in zip(*discs, strict=True):
         np.testing.assert_allclose([one.x + dx, one.y + dy], [other.x, other.y])

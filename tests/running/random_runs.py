@@ -1,9 +1,12 @@
 """Random trials: scenario, events, sensor and delays, all drawn from one number."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from tests.strategies import random_scenario
-from trihex.running import KINDS, Event, Sensor, Trial
+from trihex.areas import Frame, Zone
+from trihex.running import KINDS, OF_SHAPES, OF_ZONES, Event, Sensor, Trial
 
 LAST_STEP = 40
 RADII = (None, 0, 1, 2.5, 3, 5)
@@ -26,6 +29,12 @@ def random_events(rng, scenario, count):
         details = {n: place() if n in ("cell", "to") else int(rng.integers(most[n])) for n in KINDS[kind]}
         if "steps" in details:
             details["steps"] += 1
+        if kind in OF_ZONES and rng.random() < 0.3:
+            details = {"zone": ("west", "odd, cells", "nowhere")[rng.integers(3)]}
+        if area.frame is not None and "cell" in details and rng.random() < 0.5:
+            x, y = area.metres.centre_of_cell(area.tessellation, *details.pop("cell"))
+            points = rng.normal([x, y], 0.4, (int(rng.integers(1, 4)) if kind in OF_SHAPES else 1, 2))
+            details["metres"] = points.tolist()
         events.append(Event(int(rng.integers(1, LAST_STEP)), kind, **details))
     return events
 
@@ -34,6 +43,10 @@ def random_trial(seed, **limits):
     """Return a trial; what robots see, what happens and who is late as the number says."""
     rng = np.random.default_rng([seed, 9])
     scenario = random_scenario(seed, **{"sides": (3, 16), **limits})
+    cells = np.arange(scenario.area.cell_count)
+    zones = Zone("west", cells[cells % scenario.area.width < 2]), Zone("odd, cells", cells[1::4])
+    frame = Frame(0.8, (3.0, -2.0), 0.3) if seed % 2 else None
+    scenario = replace(scenario, area=replace(scenario.area, zones=zones, frame=frame))
     radius = RADII[rng.integers(len(RADII))]
     return Trial(
         scenario,

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import trihex as th
+from trihex.areas import Zone
 from trihex.kernels.codes import LATE
 from trihex.running import ARRIVED, BROKEN, GOING, LEFT, Event, Trial, audit_run
 
@@ -144,12 +145,56 @@ def test_events_can_be_told_while_robots_run():
     assert audit_run(run).is_clean
 
 
+def halls(robots):
+    """Two rows and two exits at the ends."""
+    zones = Zone("west", [0, 9]), Zone("east door", [8, 17]), Zone("middle", [4, 13])
+    return th.Scenario(th.Area("square", np.zeros((2, 9), dtype=bool), zones=zones), [0, 9, 8, 17], robots)
+
+
+def test_an_exit_is_closed_and_opened_by_its_name():
+    calm = outcome(halls([(2, 0), (3, 1)]))
+    assert calm.arrivals_of_exit == {"west": 2, "east door": 0, "middle": 0}
+    run = outcome(halls([(2, 0), (3, 1)]), Event(2, "close", zone="west"))
+    assert run.arrivals_of_exit == {"west": 0, "east door": 2, "middle": 0} and run.occurrences[0].closed == (0, 9)
+    run = outcome(halls([(2, 0), (3, 1)]), Event(2, "close", zone="west"), Event(3, "open", zone="west"))
+    assert run.arrivals_of_exit["west"] == 2 and run.occurrences[1].opened == (0, 9)
+    assert str(run.occurrences[1]) == "step 3: destination opens at 'west'"
+
+
+def test_a_zone_becomes_a_barrier_but_where_robots_stand():
+    run = outcome(halls([(3, 0), (4, 1)]), Event(1, "close", zone="west"), Event(1, "barrier", zone="middle"))
+    assert run.occurrences[1].blocked == (4,) and run.occurrences[1].left_out == (13,) and run.arrived.all()
+    run = outcome(halls([(2, 0)]), Event(1, "barrier", zone="west"))  # what was an exit is none
+    assert run.occurrences[0].closed == run.occurrences[0].blocked == (0, 9) and run.arrivals_of_exit["east door"] == 1
+    run = outcome(halls([(3, 0)]), Event(1, "barrier", zone="middle"), Event(2, "clear", zone="middle"))
+    assert run.occurrences[1].freed == (4, 13)
+
+
+def test_why_nothing_can_happen_to_a_zone():
+    for kind, zone, why in (
+        ("close", "middle", "no cell of 'middle' is a destination"),
+        ("open", "west", "no cell of 'west' is free and no destination yet"),
+        ("clear", "west", "no cell of 'west' is a barrier"),
+        ("close", "est door", "zone must be one of west, east door, middle, not 'est door'; did you mean 'east door'?"),
+    ):
+        assert refusals(outcome(halls([(2, 0)]), Event(1, kind, zone=zone))) == [why]
+    assert refusals(outcome(corridor([(0, 0)]), Event(1, "close", zone="a"))) == [
+        "zone 'a' does not exist: the area has none"
+    ]
+
+
 def test_events_that_make_no_sense_and_wrong_delays():
     for wrong, why in (
         (dict(step=0, kind="join", cell=(0, 0)), "step of an event must be a whole number from 1"),
         (dict(step=1, kind="jon", cell=(0, 0)), "did you mean 'join'"),
-        (dict(step=1, kind="join"), "event 'join' at step 1 takes cell, not cell=None"),
+        (dict(step=1, kind="join"), r"event 'join' at step 1 takes cell \(or metres\), not cell=None"),
         (dict(step=1, kind="leave", robot=1, cell=(0, 0)), "takes robot, not cell="),
+        (
+            dict(step=1, kind="close", cell=(0, 0), zone="a"),
+            r"'close' at step 1 takes cell or zone \(or metres\), not zone='a'",
+        ),
+        (dict(step=1, kind="join", zone="a"), r"takes cell \(or metres\), not zone='a'"),
+        (dict(step=1, kind="close", zone="a\nb"), "name of a zone must be a line"),
         (dict(step=1, kind="late", robot=1, steps=0), "steps of an event"),
         (dict(step=1, kind="join", cell=(0.5, 0)), "cell of an event must be"),
     ):

@@ -1,3 +1,7 @@
+from .alignment import (
+    ALIGNS as ALIGNS,
+    cover_aligned as cover_aligned,
+)
 from .area import (
     MAX_CELLS as MAX_CELLS,
     Area as Area,
@@ -8,17 +12,23 @@ from .claim import (
     claimed as claimed,
 )
 from .clearance import (
+    least_cell_size as least_cell_size,
+    least_distance as least_distance,
     usual_following as usual_following,
 )
 from .coverage import (
-    Covering as Covering,
+    cover as cover,
     cover_polygons as cover_polygons,
     cover_raster as cover_raster,
-    import_shapely as import_shapely,
 )
 from .entries import (
     entries_per_step as entries_per_step,
     ways_into_destinations as ways_into_destinations,
+)
+from .fit import (
+    Fit as Fit,
+    make_fits as make_fits,
+    round_up_size as round_up_size,
 )
 from .frame import (
     Frame as Frame,
@@ -31,8 +41,14 @@ from .generators import (
     make_rooms_area as make_rooms_area,
     make_warehouse_area as make_warehouse_area,
 )
+from .grid import (
+    Covering as Covering,
+)
 from .ground import (
+    DrawnGround as DrawnGround,
     Ground as Ground,
+    RasterGround as RasterGround,
+    import_shapely as import_shapely,
 )
 from .hexagons import (
     axial_to_xy as axial_to_xy,
@@ -63,6 +79,13 @@ from .tessellation import (
     Tessellation as Tessellation,
     tessellation_from as tessellation_from,
 )
+from .touching import (
+    shape_from as shape_from,
+)
 from .world import (
     World as World,
+)
+from .zone import (
+    Zone as Zone,
+    count_by_zone as count_by_zone,
 )

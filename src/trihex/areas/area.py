@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from trihex.areas.frame import Frame
+from trihex.areas.ground import Ground
 from trihex.areas.hexagons import axial_to_xy, whole, xy_to_axial
 from trihex.areas.layout import Layout
 from trihex.areas.nearest import nearest_free_cell
 from trihex.areas.places import numbers_from
 from trihex.areas.tessellation import Tessellation, tessellation_from
-from trihex.errors import AreaError, TessellationError, check_type, kind_of
+from trihex.areas.zone import Zone, zones_from
+from trihex.errors import AreaError, TessellationError, check_choice, check_many, check_type, kind_of
 from trihex.record import Record, read_only
 
 # Sites are int32, and the widest kernels keep some 40 bytes a cell.
@@ -40,6 +43,10 @@ class Area(Record):
         For reports; a reader puts the name of the file here. Characters that no file can keep become U+FFFD.
     frame : Frame, optional
         Where the area lies in the world; None if it is measured in cells only.
+    zones : tuple of Zone
+        Cells that have a name, such as exits; those of one name become one.
+    ground : Ground, optional
+        What stands in the world, from which the barriers were made; no file keeps it, and two areas are equal without.
 
     Raises
     ------
@@ -58,6 +65,8 @@ class Area(Record):
     barriers: NDArray[np.bool_]
     name: str = ""
     frame: Frame | None = None
+    zones: tuple[Zone, ...] = ()
+    ground: Ground | None = field(default=None, compare=False, repr=False)
 
     def __post_init__(self) -> None:
         self._set("tessellation", tessellation_from(self.tessellation))
@@ -71,6 +80,8 @@ class Area(Record):
         if barriers.size > MAX_CELLS:
             raise AreaError(f"an area may have at most {MAX_CELLS} cells, not {barriers.size}")
         self._set("barriers", read_only(barriers))
+        check_many("zones", self.zones, Zone, "a list of zones")
+        self._set("zones", zones_from(self.zones, barriers.size))
 
     def in_words(self) -> str:
         """Return shape, size, free cells and name."""
@@ -278,6 +289,41 @@ class Area(Record):
         if self.frame is None:
             raise AreaError("the area is measured in cells, not in metres; give it a frame (cell_size)")
         return self.frame
+
+    def cells_of_zone(self, name: str) -> NDArray[np.int64]:
+        """Return the numbers of the cells of a zone, ascending; raise AreaError, with a near name, if there is none."""
+        cells = {zone.name: zone.cells for zone in self.zones}
+        if not cells:
+            raise AreaError(f"zone {name!r:.80} does not exist: the area has none")
+        return cells[check_choice("zone", name, cells, AreaError)]
+
+    def cells_touched(self, shape: Any) -> NDArray[np.int64]:
+        """Return the numbers of the cells that robots of the frame's radius cannot use where something stands.
+
+        By the rule that made the area: those whose star comes within the radius of it, free or not. So a robot that
+        keeps to other cells does not touch it (docs/metric.md). Ascending.
+
+        Parameters
+        ----------
+        shape : shapely geometry, or points (x, y)
+            In metres. One point is a point, two are a line, more the corners of a polygon.
+
+        Raises
+        ------
+        AreaError
+            If the area has no frame, or the shape is invalid.
+        MissingExtraError
+            If shapely is not installed.
+
+        Examples
+        --------
+        >>> area = Area("square", [[0, 0, 0]], frame=Frame(1.0, robot_radius=0.2))
+        >>> area.cells_touched([(1.5, -0.5)]).tolist(), area.cells_touched([(1.1, -0.5)]).tolist()
+        ([1], [0, 1])
+        """
+        from trihex.areas.touching import cells_touched
+
+        return cells_touched(self, shape)
 
     def name_of_cell(self, cell: int) -> str:
         """Return ``(x, y)`` as text, for messages."""

@@ -30,24 +30,20 @@ def least_arrivals(
     progress: Callable[[int, int], None] | None = None,
     shift: int = 0,
 ) -> tuple[NDArray[np.int64], int]:
-    """Return (the ticks in which robots arrive, ascending; the last tick looked at): the most that can arrive that soon.
+    """Return (the ticks in which robots arrive, ascending; the last one looked at): the most that can arrive that soon.
 
     Robots without a gate on their way are among them. All are served if `horizon` and `most_looks` allow. The windows
-    of arrivals begin `shift` ticks before the start; at best the i-th arrival is no sooner than this by any shift.
+    of arrivals begin `shift` ticks before the start: whatever it is, the i-th robot to arrive arrives no sooner.
     """
     from trihex.bounds.kernels import serving as kernels
 
     gates = _gates_of(demand, network, horizon + shift, shift)
     slots = _make_slots(network, gates.width, demand.sites.size)
     search, state = _make_search(network, gates.width), np.zeros(6, dtype=np.int64)
-    state[kernels.STEP] = -1
-    while (
-        state[kernels.SERVED] < gates.robots
-        and state[kernels.STEP] < gates.horizon
-        and state[kernels.LOOKS] < most_looks
-    ):
-        budget = min(_BUDGET, most_looks - int(state[kernels.LOOKS]))
-        kernels.serve_robots(gates, slots, search, state, budget)
+    state[kernels.STEP], looks = -1, 0
+    while state[kernels.SERVED] < gates.robots and state[kernels.STEP] < gates.horizon and looks < most_looks:
+        kernels.serve_robots(gates, slots, search, state, min(_BUDGET, most_looks - looks))
+        looks = int(state[kernels.LOOKS])
         if progress is not None:
             progress(int(state[kernels.SERVED]), gates.robots)
     arrival = slots.arrival[: state[kernels.SERVED]].astype(np.int64) - shift
@@ -72,9 +68,8 @@ def _gates_of(demand: Demand, network: GateNetwork, horizon: int, shift: int) ->
 
     # Where all windows are steps it makes no difference when they begin.
     ticks = _ticks_from_gates(network) * (not demand.scenario.is_stepwise)
-    to, robot_to = (
-        np.repeat(np.arange(ticks.size), np.diff(first)) for first in (network.first_arc, network.first_robot)
-    )
+    every = np.arange(ticks.size)
+    to, robot_to = (np.repeat(every, np.diff(first)) for first in (network.first_arc, network.first_robot))
     gates: Gates = given(
         Gates,
         gap=network.gap,

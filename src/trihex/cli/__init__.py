@@ -19,6 +19,7 @@ COMMANDS = {
     "check": "Tell whether a plan is safe.",
     "animate": "Draw the robots of a plan on their way.",
     "view": "Open the viewer: paint, plan, play, compare and run live in a browser.",
+    "fit": "Tell which cells fit which robots in a place.",
     "show": "Tell what an area is like.",
     "generate": "Make an area: random, rooms, maze, caves or warehouse.",
     "convert": "Write a plan, an area or a scenario in another format.",

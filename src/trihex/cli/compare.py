@@ -89,7 +89,8 @@ def _scenarios(path: Path, names: tuple[str, ...], uses: tuple[str, ...], option
     from trihex.formats import FORMATS, format_of
     from trihex.studies import on_tessellations
 
-    if options["cell_size"] is None or FORMATS[format_of(read_bytes(path), path)].is_of_letters:
+    is_in_metres = options["cell_size"] is not None or options["robot_radius"] is not None
+    if not is_in_metres or FORMATS[format_of(read_bytes(path), path)].is_of_letters:
         scenario = complete(read_described(path, options), *uses)
         own = () if scenario.area.frame is None else (scenario.area.tessellation.name,)
         return on_tessellations(scenario, names or own or TESSELLATIONS)

@@ -23,7 +23,7 @@ PATH = click.Path(path_type=Path)
 
 # What `rule_options` adds, and what `formats.options.AreaOptions` takes besides the tessellation.
 RULES = ("waiting_cost", "crossing", "corners", "destination_capacity", "clock", "following", "destination")
-_PLACE = ("cell_size", "robot_radius", "unknown", "threshold", "invert", "resolution")
+_PLACE = ("cell_size", "robot_radius", "unknown", "threshold", "invert", "resolution", "align")
 
 
 def area_options(command: Command) -> Command:
@@ -39,8 +39,13 @@ def area_options(command: Command) -> Command:
             type=Name("trihex.formats.areas.options", "UNKNOWNS"),
             help="ROS maps: what unknown ground is. [default: barrier]",
         ),
+        click.option(
+            "--align",
+            type=Name("trihex.areas", "ALIGNS"),
+            help="In metres: how the grid lies, from the corner or so that most connects. [default: corner]",
+        ),
         click.option("--robot-radius", type=Metres(), help="In metres: robots touch neither walls nor each other."),
-        click.option("--cell-size", type=Metres(), help="Edge step in metres."),
+        click.option("--cell-size", type=Metres(), help="Edge step in metres. [default: the least for --robot-radius]"),
         click.option(
             "--costs", type=Name("trihex.areas.tessellation", "COSTS"), help="Costs of moves. [default: paper]"
         ),
@@ -88,15 +93,20 @@ def rule_options(command: Command) -> Command:
             help="Whether moves last a step each, or as long as they cost, in ticks. [default: steps]",
         ),
         click.option("--waiting-cost", type=Whole(0), help="Cost of waiting one step. [default: that of an edge]"),
-        click.option(
-            "--destination",
-            type=Place("X,Y"),
-            multiple=True,
-            help="A destination: a cell, or a point in metres as in 3.2,-1m; may be repeated.",
-        ),
+        destination_option,
     ):
         command = option(command)
     return command
+
+
+def destination_option(command: Command) -> Command:
+    """Add destinations."""
+    return click.option(
+        "--destination",
+        type=Place("X,Y"),
+        multiple=True,
+        help="A destination: a cell, or a point in metres as in 3.2,-1m; may be repeated.",
+    )(command)
 
 
 def robot_options(command: Command) -> Command:
@@ -204,6 +214,7 @@ def complete(draft: Draft, *uses: str, needs_robots: bool = True) -> Scenario:
 
     from trihex.fields import field_kernels
     from trihex.kernels.preparing import prepare
+    from trihex.planners import uses_of
 
     if draft.destinations is None:
         raise wrong_use("there is no destination: add --destination X,Y")
@@ -212,7 +223,8 @@ def complete(draft: Draft, *uses: str, needs_robots: bool = True) -> Scenario:
     known = draft if draft.random_count is None else replace(draft, random_count=None)
     scenario = known.complete()
     if uses and (draft.random_count or 0) <= draft.area.free_count:  # or they cannot be drawn, which is told at once
-        prepare(*uses, field_kernels(draft.area.tessellation, scenario.corners))
+        needed = [need for use in uses for need in uses_of(use, scenario)]
+        prepare(*needed, field_kernels(draft.area.tessellation, scenario.corners))
     return scenario if known is draft else draft.complete()
 
 

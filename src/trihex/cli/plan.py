@@ -80,7 +80,7 @@ def command(
     if "waypoints" in outputs and scenario.area.frame is None:
         raise wrong_use("--waypoints are in metres: add --cell-size")
     report = _reported(scenario, planner, planner_options, seconds)
-    _write(report, draft, outputs)
+    _write(report, outputs)
     if write_scenario:
         from trihex.formats import write_scenario as write_scenario_file
 
@@ -120,7 +120,7 @@ def _check_outputs(outputs: dict[str, Any], write_scenario: Path | None) -> None
     )
 
 
-def _write(report: Any, draft: Any, outputs: dict[str, Any]) -> None:
+def _write(report: Any, outputs: dict[str, Any]) -> None:
     """Write and draw the plan."""
     from trihex.formats import write_plan, write_waypoints
 
@@ -130,7 +130,8 @@ def _write(report: Any, draft: Any, outputs: dict[str, Any]) -> None:
     if "picture" in outputs:
         from trihex.pictures import picture_of_plan
 
-        picture_of_plan(report.plan, ground=draft.ground, crop=draft.ground is not None).save(outputs["picture"])
+        ground = report.plan.scenario.area.ground
+        picture_of_plan(report.plan, ground=ground, crop=ground is not None).save(outputs["picture"])
     if "waypoints" in outputs:
         write_waypoints(report.plan, outputs["waypoints"], speed=outputs.get("speed", 1.0))
 

@@ -20,6 +20,7 @@ from trihex.cli.options import (
 )
 from trihex.cli.outputs import check_outputs, tell_written
 from trihex.cli.progress import bar
+from trihex.cli.texts import exit_lines
 from trihex.cli.types import Amount, Name, Seconds, Share, Whole
 
 
@@ -204,6 +205,12 @@ def _told(report: Any, summary: Path | None, *, is_over: bool) -> int:
             part.write_text(text, encoding="utf-8")
     click.echo(text if str(summary) == "-" else "\n".join(run_lines(report)), nl=str(summary) != "-")
     complaints = [str(one) for one in report.run.occurrences if not one.is_accepted]
+    area = report.run.scenario.area
+    complaints += [
+        f"{one.event}: it stays free where a robot stands: {', '.join(map(area.place_of_cell, one.left_out))}"
+        for one in report.run.occurrences
+        if one.left_out
+    ]
     if is_over:
         since = report.run.cut_off_since
         complaints += [
@@ -230,6 +237,7 @@ def run_lines(report: Any) -> list[str]:
         f"{numbers['area'] or 'area'}: {robots}",
         f"{numbers['arrived']} arrived in {numbers['steps']} steps, {ends}; {numbers['events']} events, "
         f"{numbers['refused_events']} refused",
+        *exit_lines(numbers["arrivals_of_exit"], numbers["arrived"]),
         f"total time {numbers['total_time']}; with full knowledge and no events {numbers['reference_time']} "
         f"({numbers['reference_planner']}){price}; lower bound {numbers['lower_bound']}",
         f"{100 * numbers['known']:.1f} % of the cells known, {numbers['repairs']} repairs touched "

@@ -26,10 +26,20 @@ def report_lines(report: Report) -> list[str]:
         f"the last in {scenario.step_word} {report.steps}",
         f"total time {report.total_time} ({report.total_distance} moving, {report.total_waiting} waiting), "
         f"lower bound {report.lower_bound} ({report.lower_bound_name}), gap {gap}",
+        *exit_lines(report.arrivals_of_exit, report.arrived_count),
         verdict(report.audit),
         *corner_lines(report.plan, report.corner_moves, report.squeezing_moves),
         *([seconds] if seconds else []),
     ]
+
+
+def exit_lines(arrivals: Mapping[str, int], arrived: int) -> list[str]:
+    """Return a line that says how many robots arrive at each exit, or none where no exit has a name."""
+    if not arrivals:
+        return []
+    elsewhere = arrived - sum(arrivals.values())
+    named = [f"{name} {count}" for name, count in arrivals.items()] + [f"elsewhere {elsewhere}"] * (elsewhere > 0)
+    return [f"exits: {', '.join(named)}"]
 
 
 def corner_lines(plan: Plan, count: int, between: int) -> list[str]:

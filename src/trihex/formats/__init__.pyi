@@ -1,3 +1,6 @@
+from .areas.options import (
+    NoRoomError as NoRoomError,
+)
 from .draft import (
     Draft as Draft,
     draft_of as draft_of,

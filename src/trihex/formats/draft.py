@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Area, Ground, Scenario, random_robots
+from trihex.areas import Area, Scenario, random_robots
 from trihex.errors import ScenarioError
 from trihex.record import Record
 
@@ -29,8 +29,6 @@ class Draft(Record):
     crossing, corners, clock, following : str, optional
     planner : str, optional
     planner_options : dict
-    ground : Ground, optional
-        What stands in the world beneath the area, for pictures.
     outputs : dict
         What is to be written: paths of `plan`, `summary`, `picture` and `waypoints`, and the `speed` of the robots.
     """
@@ -46,7 +44,6 @@ class Draft(Record):
     destination_capacity: int | None = None
     planner: str | None = None
     planner_options: dict[str, Any] = field(default_factory=dict)
-    ground: Ground | None = None
     outputs: dict[str, Any] = field(default_factory=dict)
     clock: str | None = None
     following: str | None = None

@@ -10,12 +10,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Claim
+from trihex.areas import Claim, count_by_zone
 from trihex.bounds import LowerBound, distance_bound, make_lower_bound
 from trihex.errors import check_type
 from trihex.fields import NScheme, make_n_scheme
 from trihex.judging.audit import Audit, audit_plan
 from trihex.judging.corners import count_corner_moves
+from trihex.kernels.needs import use_of
 from trihex.kernels.preparing import prepare
 from trihex.plans import Plan
 from trihex.record import Record, counted, html_table
@@ -96,6 +97,12 @@ class Report(Record):
         """Number of robots that arrive."""
         return int(np.count_nonzero(self.plan.arrived))
 
+    @cached_property
+    def arrivals_of_exit(self) -> dict[str, int]:
+        """How many robots arrive in each zone of the area, by its name."""
+        plan = self.plan
+        return count_by_zone(plan.scenario.area.zones, plan.last_cell_of_robot[plan.arrived])
+
     @property
     def is_complete(self) -> bool:
         """Whether every robot that can arrive does."""
@@ -147,6 +154,7 @@ class Report(Record):
             "robots": scenario.robot_count,
             "arrived": self.arrived_count,
             "unreachable": int(self.unreachable_robots.size),
+            "arrivals_of_exit": self.arrivals_of_exit,
             "seed": scenario.seed,
             "planner": plan.planner,
             "waiting_cost": int(scenario.waiting_cost),
@@ -197,7 +205,8 @@ def make_report(
     check_type("n_scheme", n_scheme, NScheme, type(None))
     check_type("audit", audit, Audit, type(None))
     check_type("lower_bound", lower_bound, LowerBound, type(None))
-    prepare(*("audit",) * (audit is None), *("bound",) * (lower_bound is None and not plan.optimal))
+    judge = use_of("audit", plan.scenario.is_stepwise)
+    prepare(*(judge,) * (audit is None), *("bound",) * (lower_bound is None and not plan.optimal))
     n_scheme = make_n_scheme(plan.scenario) if n_scheme is None else n_scheme
     audit = audit_plan(plan) if audit is None else audit
     # Where the optimum is proven no bound is asked for, so a cheap one will do until that is known.

@@ -11,6 +11,9 @@ from .charts import (
 from .film import (
     MOVIE_SUFFIXES as MOVIE_SUFFIXES,
 )
+from .fits import (
+    write_fits as write_fits,
+)
 from .generations import (
     draw_generations as draw_generations,
 )

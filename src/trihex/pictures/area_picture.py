@@ -33,7 +33,7 @@ def picture_of_area(
     legend : bool
         Whether to explain the colours.
     ground : Ground, optional
-        What stands in the world, painted onto the cells.
+        What stands in the world, painted onto the cells; that of the area is `area.ground`.
 
     Examples
     --------

@@ -52,7 +52,7 @@ def _draw_body(scene: Scene, sheet: Sheet, figure: Any) -> None:
     draw_scene(scene, ax, pixels_per_point=1 / _POINTS)
     ax.set_title("")
     if scene.ground is not None:
-        ground = ground_of_body(scene.ground, sheet.body_width, sheet.body_height, scene.scale)
+        ground = ground_of_body(scene, scene.ground, sheet.body_width, sheet.body_height)
         image = np.zeros((*ground.shape, 4), dtype=np.uint8)
         image[ground] = (*GROUND, 255)
         limits = ax.get_xlim(), ax.get_ylim()

@@ -46,7 +46,7 @@ def picture_of_plan(
     check_type("plan", plan, Plan)
     whole = plan.scenario.area
     if crop:
-        plan, ground = _cropped(plan, ground)
+        plan = _cropped(plan)
     scenario, area = plan.scenario, plan.scenario.area
     scale = scale_for(area, width)
     if paths is None:
@@ -84,17 +84,17 @@ def picture_of_plan(
     return titled(scene, title, f"Plan ({plan.planner})" if plan.planner else "Plan", more, legend)
 
 
-def _cropped(plan: Plan, ground: Ground | None) -> tuple[Plan, Ground | None]:
-    """Return the plan and the ground on the box around all free cells, two cells wider, if it is less than half."""
+def _cropped(plan: Plan) -> Plan:
+    """Return the plan on the box around all free cells, two cells wider, if it is less than half."""
     scenario, area = plan.scenario, plan.scenario.area
     rows, columns = (np.flatnonzero(~area.barriers.all(axis=axis)) for axis in (1, 0))
     if plan.jumps.size or rows.size == 0:
-        return plan, ground
+        return plan
     # Even steps leave the orientation of cells as it is.
     top, left = (max(0, (int(first[0]) - 2) // 2 * 2) for first in (rows, columns))
     barriers = area.barriers[top : rows[-1] + 3, left : columns[-1] + 3]
     if 2 * barriers.size > area.cell_count:
-        return plan, ground
+        return plan
     x, y = (
         float(end - start)
         for end, start in zip(
@@ -110,6 +110,4 @@ def _cropped(plan: Plan, ground: Ground | None) -> tuple[Plan, Ground | None]:
         np.stack(area.cell_to_xy(cells), axis=-1) - (left, top) for cells in (scenario.destinations, scenario.robots)
     )
     moved = Scenario(part, destinations, robots, waiting_cost=scenario.waiting_cost, following=scenario.following)
-    if ground is not None:
-        ground = replace(ground, corner=(ground.corner[0] + x, ground.corner[1] + y))
-    return Plan(moved, plan.actions, plan.first_action, plan.planner, plan.optimal), ground
+    return Plan(moved, plan.actions, plan.first_action, plan.planner, plan.optimal)

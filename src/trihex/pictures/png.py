@@ -100,13 +100,14 @@ def _body(scene: Scene, width: int, height: int, larger: int) -> NDArray[np.uint
     for first in range(0, height, rows):
         raster.shade(paint, lattice, sampling, first, min(height, first + rows), image)
     if scene.ground is not None:
-        image[ground_of_body(scene.ground, width, height, scale)] = GROUND
+        image[ground_of_body(scene, scene.ground, width, height)] = GROUND
     return image
 
 
-def ground_of_body(ground: Ground, width: int, height: int, scale: float) -> NDArray[np.bool_]:
+def ground_of_body(scene: Scene, ground: Ground, width: int, height: int) -> NDArray[np.bool_]:
     """Return which pixels of the cells show something that stands in the world."""
-    return ground.occupied_at((np.arange(width) + 0.5) / scale, ((np.arange(height) + 0.5) / scale)[:, None])
+    px, py = (np.arange(width) + 0.5) / scene.scale, ((np.arange(height) + 0.5) / scene.scale)[:, None]
+    return ground.occupied_at(*scene.area.metres.point_to_metres(px, py))
 
 
 def _body_with_lines(scene: Scene, sheet: Sheet, lines: list[Lines]) -> NDArray[np.uint8]:

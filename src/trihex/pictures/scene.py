@@ -96,7 +96,7 @@ class Scene(Record):
     Parameters
     ----------
     area : Area
-        Only its tessellation and its size are used.
+        Only its tessellation, its size and, for a ground, its frame are used.
     colour_of_cell : uint8 array, shape (height, width)
         Row of `colours`.
     colours : uint8 array, shape (n, 3)

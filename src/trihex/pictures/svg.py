@@ -102,7 +102,7 @@ def _ground(scene: Scene, ground: Ground) -> str:
 
     across, down = scene.area.tessellation.extent(scene.area.height, scene.area.width)
     width, height = max(1, round(across * scene.scale)), max(1, round(down * scene.scale))
-    picture = Image.fromarray(ground_of_body(ground, width, height, scene.scale).astype(np.uint8))
+    picture = Image.fromarray(ground_of_body(scene, ground, width, height).astype(np.uint8))
     picture.putpalette([*PAGE, *GROUND])
     file = BytesIO()
     picture.save(file, format="PNG", transparency=0)

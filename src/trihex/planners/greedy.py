@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from trihex.fields import NScheme, make_d_scheme
 from trihex.planners.crowd import make_crowd, make_ways, regions_of
 from trihex.planners.recording import Progress, Recording
-from trihex.planners.timely import simulate
+from trihex.planners.timely import descend_timely
 from trihex.plans import Arrivals, Plan
 
 
@@ -40,13 +40,12 @@ def run_greedy(
 ) -> Recording:
     """Simulate until all have arrived, or the total time is sure to be `limit` or more."""
     from trihex.kernels.signatures import given
-    from trihex.planners.kernels import choice, greedy as kernels
+    from trihex.planners.kernels import greedy as kernels
     from trihex.planners.kernels.cells import DESTINATION, OCCUPIED, Cells, find_regions
 
     scenario = n_scheme.scenario
     if not scenario.is_stepwise:
-        rule = choice.Rule(counts=choice.NOTHING, aside=choice.STAY, period=1, price=0)
-        return simulate(make_d_scheme(n_scheme), rule, keeps_actions, progress, limit)
+        return descend_timely(make_d_scheme(n_scheme), keeps_actions, progress, limit)
     layout = scenario.area.layout
     destinations = layout.cell_to_site(scenario.destinations)
     flags = make_d_scheme(n_scheme).directions_of_site.copy()

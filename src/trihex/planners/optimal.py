@@ -13,6 +13,7 @@ from trihex.areas import Scenario
 from trihex.errors import PlanError, check_choice
 from trihex.fields import NScheme
 from trihex.kernels.codes import NOT_REACHED
+from trihex.kernels.preparing import prepare
 from trihex.optimum import (
     OBJECTIVES,
     Flow,
@@ -88,13 +89,11 @@ def _check_is_flow(scenario: Scenario) -> None:
         return
     rule = "following='allow', not 'forbid'"
     if scenario.following == "allow":
-        *some, last = np.unique(scenario.duration_of_direction).tolist()
-        rule = (
-            f"moves that last equally long, not {', '.join(map(str, some))} and {last} ticks as by clock='costs' here"
-        )
+        *some, last = map(str, np.unique(scenario.duration_of_direction))
+        rule = f"moves that last equally long, not {', '.join(some)} and {last} ticks as by clock='costs' here"
     raise PlanError(
-        f"planner 'optimal' needs {rule}, which is no pure flow; the lower bound in the report of another planner tells "
-        "how far its plan is from the optimum at most"
+        f"planner 'optimal' needs {rule}, which is no pure flow; the lower bound in the report of another planner "
+        "tells how far its plan is from the optimum at most"
     )
 
 
@@ -105,6 +104,7 @@ def _find_flow(
     flow = make_flow_singly(network, cells, **options)
     if flow is not None:
         return flow
+    prepare("optimal_earliest" if network.has_equal_steps else "optimal_levels")
     if network.has_equal_steps:
         return make_earliest_flow(network, cells, robots, plan_fcost(n_scheme), **options)
     return make_flow_by_levels(network, cells, **options)

@@ -50,7 +50,7 @@ class TickRecording(Recording):
 
         first_action = np.concatenate([[0], np.cumsum(self._by_robot(self._count))])
         actions = np.empty(first_action[-1], dtype=np.uint8)
-        end = first_action[self.crowd.robot + 1]
+        end = np.append(first_action[1:], 0)[self.crowd.robot]
         while self._rows:  # the last first, so that what is written is freed
             write_back(*self._rows.pop(), end, actions)
         return Plan(self.crowd.scenario, actions, first_action, planner=planner)
@@ -73,6 +73,14 @@ def simulate(d_scheme: DScheme, rule: Any, keeps_actions: bool, progress: Progre
 
     recording.run(act, progress, limit)
     return recording
+
+
+def descend_timely(d_scheme: DScheme, keeps_actions: bool, progress: Progress | None, limit: float) -> Recording:
+    """Simulate robots that take the first of their best directions that is open, and else wait."""
+    from trihex.planners.kernels import choice
+
+    rule = choice.Rule(counts=choice.NOTHING, aside=choice.STAY, period=1, price=0)
+    return simulate(d_scheme, rule, keeps_actions, progress, limit)
 
 
 def _make_stage(crowd: Crowd, slots: Slots) -> Any:

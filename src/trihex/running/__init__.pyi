@@ -5,6 +5,8 @@ from .audit import (
 from .events import (
     KINDS as KINDS,
     MOST_STEPS as MOST_STEPS,
+    OF_SHAPES as OF_SHAPES,
+    OF_ZONES as OF_ZONES,
     Event as Event,
     Occurrence as Occurrence,
 )

@@ -6,12 +6,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.areas import Area, World
-from trihex.errors import ExecutionError
-from trihex.running.events import Event
+from trihex.errors import AreaError, ExecutionError, MissingExtraError
+from trihex.running.events import OF_SHAPES, Event, Points
+from trihex.running.obstacles import Obstacles
 
 
-def cell_at(area: Area, place: tuple[int, int] | None) -> int:
+def cell_at(area: Area, place: tuple[int, int] | None, metres: Points | None = None) -> int:
     """Return the number of the cell that an event names; raises ExecutionError if it lies outside."""
+    if metres is not None:
+        try:
+            return int(area.metres_to_cell(*metres[0]))
+        except AreaError as error:
+            raise ExecutionError(str(error)) from None
     if place is None:
         raise ExecutionError("the event names no cell")
     x, y = place
@@ -20,17 +26,21 @@ def cell_at(area: Area, place: tuple[int, int] | None) -> int:
     return y * area.width + x
 
 
-def changes_of(event: Event, world: World, cell_of_robot: NDArray[np.int64]) -> dict[str, tuple[int, ...]]:
-    """Return what an event that concerns a cell changes, as `World.change` takes it.
+def changes_of(
+    event: Event, world: World, cell_of_robot: NDArray[np.int64], obstacles: Obstacles
+) -> dict[str, tuple[int, ...]]:
+    """Return what an event that concerns cells changes, as an `Occurrence` has it.
 
     Parameters
     ----------
     event : Event
-        A barrier that comes or goes, or a destination that opens, closes or moves.
+        A barrier that comes or goes, or a destination that opens, closes or moves. Of many cells those change that can.
     world : World
         As it is before the event.
     cell_of_robot : int64 array
         Number of the cell of each robot, -1 for those that are not in the area.
+    obstacles : Obstacles
+        What has come to stand in the world so far; brought up to date.
 
     Raises
     ------
@@ -38,12 +48,22 @@ def changes_of(event: Event, world: World, cell_of_robot: NDArray[np.int64]) -> 
         If it cannot happen.
     """
     area = world.area
-    cell = cell_at(area, event.cell)
+    if event.zone is not None:
+        cells = _cells_of_zone(area, event.zone)
+        changes = _changes_of_many(event, cells, world, cell_of_robot)
+        obstacles.fill(changes.get("blocked", ()))
+        obstacles.clear(changes.get("freed", ()))
+        return changes
+    if event.metres is not None and event.kind in OF_SHAPES:
+        return _changes_of_shape(event, world, cell_of_robot, obstacles)
+    cell = cell_at(area, event.cell, event.metres)
     if event.kind == "barrier":
-        return {"blocked": (_check_clear(cell, world, cell_of_robot),)}
+        obstacles.fill([_check_clear(cell, world, cell_of_robot)])
+        return {"blocked": (cell,)}
     if event.kind == "clear":
         if not world.is_barrier(cell):
             raise ExecutionError(f"{area.name_of_cell(cell)} is no barrier")
+        obstacles.clear([cell])
         return {"freed": (cell,)}
     if event.kind == "open":
         return {"opened": (_check_new(cell, world),)}
@@ -51,7 +71,57 @@ def changes_of(event: Event, world: World, cell_of_robot: NDArray[np.int64]) -> 
         raise ExecutionError(f"{area.name_of_cell(cell)} is no destination")
     if event.kind == "close":
         return {"closed": (cell,)}
-    return {"closed": (cell,), "opened": (_check_new(cell_at(area, event.to), world),)}
+    return {"closed": (cell,), "opened": (_check_new(cell_at(area, event.to, event.to_metres), world),)}
+
+
+def _changes_of_shape(
+    event: Event, world: World, cell_of_robot: NDArray[np.int64], obstacles: Obstacles
+) -> dict[str, tuple[int, ...]]:
+    """Return what changes where an obstacle comes, or goes: then cells are free in which nothing else stands."""
+    area = world.area
+    try:
+        cells = set(area.cells_touched(event.metres).tolist())
+    except (AreaError, MissingExtraError) as error:
+        raise ExecutionError(str(error)) from None
+    if event.kind == "clear":
+        cells = obstacles.take(cells) - set(np.flatnonzero(area.barriers).tolist())
+        return _changes_of_many(event, cells, world, cell_of_robot)
+    changes = _changes_of_many(event, cells, world, cell_of_robot)
+    obstacles.put(cells)
+    return changes
+
+
+def _cells_of_zone(area: Area, name: str) -> set[int]:
+    try:
+        return set(area.cells_of_zone(name).tolist())
+    except AreaError as error:
+        raise ExecutionError(str(error)) from None
+
+
+def _changes_of_many(
+    event: Event, cells: set[int], world: World, cell_of_robot: NDArray[np.int64]
+) -> dict[str, tuple[int, ...]]:
+    """Return what changes of many cells; raises ExecutionError if none can."""
+    barred = {cell for cell in cells if world.is_barrier(cell)}
+    taken = cells & set(cell_of_robot.tolist())
+    goals = cells & world.destinations
+    if event.kind == "barrier":  # whoever wanted to go there cannot
+        changes = {"blocked": cells - barred - taken, "closed": goals - taken, "left_out": taken - barred}
+    elif event.kind == "clear":
+        changes = {"freed": barred}
+    elif event.kind == "open":
+        changes = {"opened": cells - barred - goals}
+    else:
+        changes = {"closed": goals}
+    if not any(changes.values()):
+        what = {
+            "barrier": "free",
+            "clear": "a barrier",
+            "open": "free and no destination yet",
+            "close": "a destination",
+        }
+        raise ExecutionError(f"no cell of {event.place} is {what[event.kind]}")
+    return {name: tuple(sorted(own)) for name, own in changes.items()}
 
 
 def _check_clear(cell: int, world: World, cell_of_robot: NDArray[np.int64]) -> int:

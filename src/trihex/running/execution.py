@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from trihex.areas import Scenario, cells_from
+from trihex.areas import Area, Scenario, cells_from
 from trihex.errors import ExecutionError, check_choice, check_many, check_number, check_type, is_whole
 from trihex.fields import LivingField, NScheme, Repair, field_kernels, make_n_scheme
 from trihex.kernels.codes import LATE, NOT_REACHED, WAIT
@@ -17,6 +17,7 @@ from trihex.kernels.preparing import prepare
 from trihex.planners import PLANNERS
 from trihex.record import in_one_line, read_only
 from trihex.running.fleet import Fleet
+from trihex.running.obstacles import Obstacles
 from trihex.running.replanning import Replanner
 from trihex.running.run import BROKEN, LEFT
 from trihex.running.stepping import ASIDE, STEPPERS, Stepper
@@ -114,6 +115,7 @@ class Execution:
         self._stepper = Stepper(scenario, self.field, planner, aside)
         #: Number of steps done.
         self.steps_done = 0
+        self._obstacles = Obstacles()
         self._arrive_on_the_spot()
         # Compiled code is loaded now, not in the first step, for which a robot may be waiting.
         self.field.change()
@@ -148,24 +150,70 @@ class Execution:
         return np.asarray(self.fleet.is_going & (self.field.distance_of_site[self.fleet.site] != NOT_REACHED))
 
     def observe(
-        self, *, blocked: ArrayLike = (), freed: ArrayLike = (), opened: ArrayLike = (), closed: ArrayLike = ()
+        self,
+        *,
+        blocked: ArrayLike = (),
+        freed: ArrayLike = (),
+        opened: ArrayLike = (),
+        closed: ArrayLike = (),
+        obstacles: Iterable[Any] = (),
+        gone: Iterable[Any] = (),
     ) -> Repair:
-        """Take note of a change of the world, and repair the field; parameters as for `LivingField.change`.
+        """Take note of a change of the world, and repair the field.
 
         A robot that stands where a destination opens has arrived.
+
+        Parameters
+        ----------
+        blocked, freed, opened, closed
+            As for `LivingField.change`.
+        obstacles : list of shapes in metres, optional
+            What has come to stand in the world, each as for `Area.cells_touched`: the cells that it touches become
+            barriers and their destinations close, but where robots stand; `obstructed_robots` are these. Tell it again
+            when they have moved on.
+        gone : the same
+            Obstacles, told before, that stand there no more. Cells are free again in which nothing else stands.
 
         Raises
         ------
         ExecutionError
-            If a robot stands in a cell that is to be blocked; nothing has changed then.
+            If a robot stands in a cell of `blocked`; nothing has changed then.
         ScenarioError
             As `LivingField.change`.
+        AreaError
+            If a shape is invalid, or the area has no frame.
         """
         area = self.scenario.area
-        self.fleet.check_empty(area.layout.cell_to_site(cells_from(area, blocked, "blocked", ExecutionError)))
-        repair = self._change(blocked=blocked, freed=freed, opened=opened, closed=closed)
+        told, cleared, closing = (
+            cells_from(area, cells, name, ExecutionError)
+            for cells, name in ((blocked, "blocked"), (freed, "freed"), (closed, "closed"))
+        )
+        self.fleet.check_empty(area.layout.cell_to_site(told))
+        barred = told
+        come, left = (_touched(area, shapes, name) for shapes, name in ((obstacles, "obstacles"), (gone, "gone")))
+        for cells in left:
+            walls = np.flatnonzero(area.barriers)
+            free = np.setdiff1d(list(self._obstacles.take(cells.tolist())), walls).astype(np.int64)
+            cleared = np.union1d(cleared, free[self.field.barriers.reshape(-1)[free]])
+        if come:
+            cells = np.setdiff1d(np.concatenate(come), self.fleet.cell_of_robot)
+            barred = np.union1d(barred, cells[~self.field.barriers.reshape(-1)[cells]])
+            cleared = np.setdiff1d(cleared, np.concatenate(come))
+            closing = np.union1d(closing, np.intersect1d(cells, self.field.world.destination_cells))
+        repair = self._change(blocked=barred, freed=cleared, opened=opened, closed=closing)
+        self._obstacles.clear(cleared.tolist())
+        for cells in come:
+            self._obstacles.put(cells.tolist())
+        self._obstacles.fill(told.tolist())
         self._arrive_on_the_spot()
         return repair
+
+    @property
+    def obstructed_robots(self) -> NDArray[np.int64]:
+        """Robots on their way that stand where an obstacle does, in cells that are therefore no barriers; ascending."""
+        going = self.fleet.going
+        cells = np.array(sorted(self._obstacles.cells), dtype=np.int64)
+        return np.asarray(going[np.isin(self.fleet.cell_of_robot[going], cells)])
 
     def _change(self, **changes: ArrayLike) -> Repair:
         repair = self.field.change(**changes)
@@ -293,6 +341,7 @@ class Execution:
             "barriers": self.field.barriers.copy(),
             "destinations": self.field.world.destination_cells,
             "steps_done": np.array(self.steps_done),
+            "obstacles": self._obstacles.as_array(),
         }
 
     def restore(self, state: Mapping[str, NDArray[Any]]) -> None:
@@ -306,5 +355,12 @@ class Execution:
             closed=np.array(sorted(now - wanted), dtype=np.int64),
         )
         self.fleet.restore(state)
+        self._obstacles.restore(state["obstacles"])
         self._stepper.forget_steps()
         self.steps_done = int(state["steps_done"])
+
+
+def _touched(area: Area, shapes: Iterable[Any], name: str) -> list[NDArray[np.int64]]:
+    """Return the cells that each of some shapes touches."""
+    check_many(name, shapes, Mapping, "a list of shapes in metres")
+    return [area.cells_touched(shape) for shape in shapes]

@@ -84,6 +84,7 @@ class RunReport(Record):
             "seed": run.seed,
             "robots": int(run.robots.size),
             "arrived": int(np.count_nonzero(run.arrived)),
+            "arrivals_of_exit": run.arrivals_of_exit,
             "cut_off": int(np.count_nonzero(state == GOING)),
             "left": int(np.count_nonzero(state == LEFT)),
             "broken": int(np.count_nonzero(state == BROKEN)),

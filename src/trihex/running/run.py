@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Scenario, World
+from trihex.areas import Scenario, World, count_by_zone
 from trihex.kernels.codes import LATE, WAIT
 from trihex.record import Record, counted, read_only
 from trihex.running.events import Occurrence
@@ -122,6 +122,16 @@ class Run(Record):
     def total_time(self) -> int:
         """Sum of t_r over the robots that arrived."""
         return int(self.time_of_robot[self.arrived].sum())
+
+    @property
+    def arrivals_of_exit(self) -> dict[str, int]:
+        """How many robots arrived in each zone of the area, by its name."""
+        layout = self.scenario.area.layout
+        site = layout.cell_to_site(self.robots)
+        for action in self.actions:
+            moves = np.flatnonzero(action < LATE)
+            site[moves] += layout.offset_of_direction[site[moves] & 1, action[moves]]
+        return count_by_zone(self.scenario.area.zones, layout.site_to_cell(site[self.arrived]))
 
     def cells_by_step(self) -> Iterator[NDArray[np.int64]]:
         """Yield the cell of each robot after step 0, 1, ..., `steps`; -1 where it is not in the area."""

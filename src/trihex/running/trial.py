@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 from time import perf_counter
 from typing import Any
 
@@ -18,6 +19,7 @@ from trihex.running.events import Event, Occurrence
 from trihex.running.execution import Execution
 from trihex.running.knowledge import Knowledge
 from trihex.running.log import Log
+from trihex.running.obstacles import Obstacles
 from trihex.running.run import GOING, Run
 from trihex.running.sensing import Sensor
 
@@ -81,7 +83,7 @@ class Trial:
         self.area, self.layout = scenario.area, scenario.area.layout
         known = scenario if sensor is None else _unknown(scenario)
         self.execution = Execution(known, planner, aside=aside, replan=replan, budget=budget)
-        self._world = World(scenario)
+        self._world, self._obstacles = World(scenario), Obstacles()
         self._knowledge = Knowledge(self._world, sensor)
         self._events = sorted(events, key=lambda event: event.step)
         self._occurrences: list[Occurrence] = []
@@ -143,8 +145,7 @@ class Trial:
     def tell(self, event: Event) -> None:
         """Add an event; if its step is over, it happens in the next one."""
         step = max(event.step, self.steps_done + 1)
-        event = Event(step, event.kind, event.cell, event.to, event.robot, event.steps)
-        self._events = sorted([*self._events, event], key=lambda one: one.step)
+        self._events = sorted([*self._events, replace(event, step=step)], key=lambda one: one.step)
 
     def run(self, *, most_steps: int = _STEPS_MOST, progress: Callable[[int, int], None] | None = None) -> Run:
         """Go on until no robot can, or for so many steps at most; return all that has happened.
@@ -218,31 +219,33 @@ class Trial:
             changes = self._changes_of(event)
         except (ExecutionError, ScenarioError) as error:
             return Occurrence(event, refusal=str(error))
-        sites = self._world.change(**changes)
+        occurrence = Occurrence(event, "", **changes)
+        sites = self._world.change(**occurrence.changes)
         if event.kind == "break":  # all know it
-            return Occurrence(event, "", **changes)
+            return occurrence
         if self.sensor is not None:
             self._knowledge.change(sites["blocked"], sites["freed"], event.step - 1)
             sites["blocked"], sites["freed"] = _NONE, sites["freed"][self.execution.field.blocked[sites["freed"]]]
             self._moved[:] = True  # all look again
         self._observe(**sites)
-        return Occurrence(event, "", **changes)
+        return occurrence
 
     def _changes_of(self, event: Event) -> dict[str, tuple[int, ...]]:
         """Return the cells that an event changes, after what it does to robots is done; raise an error if it cannot."""
         robot = -1 if event.robot is None else event.robot
         if event.kind == "join":
-            self._join(cell_at(self.area, event.cell), event.step - 1)
+            self._join(cell_at(self.area, event.cell, event.metres), event.step - 1)
         elif event.kind == "leave":
             self.execution.leave(robot)
         elif event.kind == "break":
             self._note_repair(self.execution.break_down(robot))
-            return {"blocked": (int(self.execution.cell_of_robot[robot]),)}
+            self._obstacles.fill(own := [int(self.execution.cell_of_robot[robot])])
+            return {"blocked": tuple(own)}
         elif event.kind == "late":
             self.execution.check_going(robot)
             self._log.delay(robot, event.step + (event.steps or 1) - 1)
         else:
-            return changes_of(event, self._world, self.execution.cell_of_robot)
+            return changes_of(event, self._world, self.execution.cell_of_robot, self._obstacles)
         return {}
 
     def _join(self, cell: int, step: int) -> None:
@@ -279,8 +282,6 @@ class Trial:
 
 def _unknown(scenario: Scenario) -> Scenario:
     """Return the scenario as robots know it at the beginning: free everywhere."""
-    from dataclasses import replace
-
     area = scenario.area
     return replace(scenario, area=Area(area.tessellation, np.zeros_like(area.barriers), area.name, area.frame))
 

@@ -18,6 +18,7 @@ from trihex.areas import (
 from trihex.planners import PLANNERS, options_of
 from trihex.viewer.exports import EXPORTS
 from trihex.viewer.folder import SUFFIXES
+from trihex.viewer.hints import planner_hints
 
 
 def choices() -> dict[str, Any]:
@@ -35,6 +36,7 @@ def choices() -> dict[str, Any]:
         "followings": FOLLOWINGS,
         "generators": ["empty", *GENERATORS],
         "planners": {name: options_of(name) for name in PLANNERS},
+        "hints": planner_hints(),
         "exports": {what: {"suffixes": suffixes, "needs": needs} for what, (suffixes, needs) in EXPORTS.items()},
         "suffixes": SUFFIXES,
     }

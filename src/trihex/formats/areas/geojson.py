@@ -7,9 +7,9 @@ import os
 from collections.abc import Iterator
 from typing import Any
 
-from trihex.areas import import_shapely
+from trihex.areas import Zone, import_shapely
 from trihex.areas.coverage import Progress
-from trihex.errors import FormatError, check_choice
+from trihex.errors import AreaError, FormatError, check_choice
 from trihex.formats.areas.options import AreaOptions
 from trihex.formats.areas.polygons import Drawn, Place, checked_parts, draft_of_place
 from trihex.formats.draft import Draft
@@ -23,7 +23,8 @@ def parse_geojson(text: Text, path: str | os.PathLike[str], options: AreaOptions
     """Return the area that covers what the file draws, and its destinations and robots if it has some.
 
     Coordinates are metres, x to the east and y to the north. The property ``kind`` of a feature tells what it is: free
-    (the default of polygons), obstacle, destination or robot (points). All that is not free is occupied.
+    (the default of polygons), obstacle, destination or robot (points). All that is not free is occupied. The property
+    ``name`` of a destination becomes that of a zone.
 
     Raises
     ------
@@ -40,16 +41,17 @@ def parse_geojson(text: Text, path: str | os.PathLike[str], options: AreaOptions
     except ValueError as error:
         raise FormatError(f"{path}: is no JSON: {error}") from None
     parts: dict[str, list[Drawn]] = {kind: [] for kind in KINDS}
-    for where, geometry, kind in _features(document, str(path)):
-        drawn = [one for leaf in _leaves(geometry, where) for one in checked_parts(where, _shape(leaf, kind, where))]
-        if kind in ("destination", "robot") and (not drawn or any(shape.is_empty for _, shape in drawn)):
+    for where, geometry, kind, name in _features(document, str(path)):
+        leaves = [_shape(leaf, kind, where) for leaf in _leaves(geometry, where)]
+        drawn = [one for leaf in leaves for one in checked_parts(where, leaf, name)]
+        if kind in ("destination", "robot") and (not drawn or any(one.shape.is_empty for one in drawn)):
             raise FormatError(f"{where}: a {kind} must have coordinates; it has none")
         parts[kind or "free"] += [one for one in drawn if not one.shape.is_empty]
     return draft_of_place(Place(path, **parts), options, progress)
 
 
-def _features(document: Any, path: str) -> Iterator[tuple[str, Any, str | None]]:
-    """Yield where it stands, geometry and kind of each feature."""
+def _features(document: Any, path: str) -> Iterator[tuple[str, Any, str | None, str]]:
+    """Yield where it stands, geometry, kind and name of each feature; only destinations have names."""
     if not isinstance(document, dict):
         raise FormatError(f"{path}: GeoJSON must be an object, not {type(document).__name__}")
     features = document.get("features") if document.get("type") == "FeatureCollection" else [document]
@@ -60,14 +62,27 @@ def _features(document: Any, path: str) -> Iterator[tuple[str, Any, str | None]]
         if not isinstance(feature, dict):
             raise FormatError(f"{where}: must be an object, not {feature!r:.40}")
         if feature.get("type") != "Feature":
-            yield where, feature, None
+            yield where, feature, None, ""
             continue
         properties = feature.get("properties")
-        kind = properties.get("kind") if isinstance(properties, dict) else None
+        properties = properties if isinstance(properties, dict) else {}
+        kind = properties.get("kind")
         if kind is not None:
             check_choice(f"{where}: kind", kind, KINDS, FormatError)
         nothing = {"type": "GeometryCollection", "geometries": []}
-        yield where, nothing if feature.get("geometry") is None else feature["geometry"], kind
+        name = _name_of(properties, where) if kind == "destination" else ""
+        yield where, nothing if feature.get("geometry") is None else feature["geometry"], kind, name
+
+
+def _name_of(properties: dict[str, Any], where: str) -> str:
+    """Return the name that a feature has, "" if it has none."""
+    name = properties.get("name")
+    if name is None or name == "":
+        return ""
+    try:
+        return Zone(str(name) if isinstance(name, int) else name, ()).name  # type: ignore[arg-type]
+    except AreaError as error:
+        raise FormatError(f"{where}: {error}") from None
 
 
 def _leaves(geometry: Any, where: str) -> Iterator[dict[str, Any]]:

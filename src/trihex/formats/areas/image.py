@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Area, Ground, cover_raster
+from trihex.areas import Area, RasterGround
 from trihex.areas.coverage import Progress
 from trihex.errors import FormatError
 from trihex.files import new_file
@@ -113,9 +113,9 @@ def parse_image(content: bytes, path: str | os.PathLike[str], options: AreaOptio
     is_free = (grey if alpha is None else np.where(alpha == 255, grey, 255)) >= options.threshold * 255
     occupied = is_free if options.invert else ~is_free
     name = Path(path).stem
-    if options.cell_size is None:
-        if options.robot_radius or options.resolution is not None:
-            raise FormatError(f"{path}: robot_radius and resolution need cell_size, the edge step of a cell in metres")
+    if options.edge_step is None:
+        if options.resolution is not None:
+            raise FormatError(f"{path}: resolution needs cell_size, the edge step of a cell in metres, or robot_radius")
         return Draft(Area(options.tessellation, occupied, name))
     if options.resolution is None:
         raise FormatError(
@@ -124,16 +124,9 @@ def parse_image(content: bytes, path: str | os.PathLike[str], options: AreaOptio
         )
     rows, columns = occupied.shape
     covering = options.covering_of(path, "an image", columns * options.resolution, rows * options.resolution)
-    area = cover_raster(
-        occupied,
-        covering,
-        resolution=options.resolution,
-        origin=(0.0, rows * options.resolution),
-        is_outside_occupied=options.unknown == "barrier",
-        name=name,
-        progress=progress,
-    )
-    return Draft(area, ground=Ground(occupied, options.resolution / covering.cell_size))
+    origin = (0.0, rows * options.resolution)
+    ground = RasterGround(occupied, options.resolution, origin, is_outside_occupied=options.unknown == "barrier")
+    return Draft(options.area_of(ground, covering, name, progress))
 
 
 def write_image(area: Area, path: str | os.PathLike[str]) -> None:

@@ -5,11 +5,27 @@ from __future__ import annotations
 from dataclasses import dataclass
 from numbers import Real
 
-from trihex.areas import Covering, Tessellation, tessellation_from
+from trihex.areas import (
+    ALIGNS,
+    Area,
+    Covering,
+    Ground,
+    Tessellation,
+    cover,
+    cover_aligned,
+    least_cell_size,
+    round_up_size,
+    tessellation_from,
+)
+from trihex.areas.coverage import Progress
 from trihex.errors import FormatError, check_choice
 from trihex.record import Record
 
 UNKNOWNS = ("barrier", "free")
+
+
+class NoRoomError(FormatError):
+    """A place that is too small for such cells, or one of whose exits leads to none of them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,8 +36,9 @@ class AreaOptions(Record):
     ----------
     tessellation : Tessellation or str
     cell_size : float, optional
-        Edge step in metres. ROS maps, GeoJSON and WKT need it; images need it or have one cell for each pixel; for
-        ``.map`` and ``.txt``, one cell for each letter, it only says how large a cell is.
+        Edge step in metres. Default: the least that robots of `robot_radius` can have, in tenths of a millimetre. ROS
+        maps, GeoJSON and WKT need one of the two; images need one or have one cell for each pixel; for ``.map`` and
+        ``.txt``, one cell for each letter, it only says how large a cell is.
     robot_radius : float
         In metres; how far robots are to keep from what is occupied, and half of how far from each other.
     unknown : {"barrier", "free"}
@@ -32,6 +49,9 @@ class AreaOptions(Record):
         In images, dark pixels are free and bright ones occupied.
     resolution : float, optional
         Metres for each pixel of an image. ROS maps bring their own.
+    align : {"corner", "best", "shift"}
+        Where the grid begins and how it is turned: at the north-west corner along its sides; so that the largest
+        connected part has most cells; or the best of a few shifts.
 
     Raises
     ------
@@ -46,29 +66,45 @@ class AreaOptions(Record):
     threshold: float = 0.5
     invert: bool = False
     resolution: float | None = None
+    align: str = "corner"
 
     def __post_init__(self) -> None:
         self._set("tessellation", tessellation_from(self.tessellation))
         check_choice("unknown", self.unknown, UNKNOWNS, FormatError)
+        check_choice("align", self.align, (*ALIGNS, "shift"), FormatError)
         if not isinstance(self.threshold, Real) or not 0 <= self.threshold <= 1:
             raise FormatError(f"threshold must be between 0 and 1, not {self.threshold!r:.80}")
         if self.resolution is not None:
             if not isinstance(self.resolution, Real) or not 1e-9 <= self.resolution <= 1e9:
                 raise FormatError(f"resolution must be between 1e-9 and 1e9 metres, not {self.resolution!r:.80}")
 
+    @property
+    def edge_step(self) -> float | None:
+        """The cell size, or the least for robots of the radius; None where there is neither."""
+        if self.cell_size is not None or not isinstance(self.robot_radius, Real) or not self.robot_radius > 0:
+            return self.cell_size
+        return round_up_size(least_cell_size(self.tessellation, float(self.robot_radius)))
+
+    def area_of(self, ground: Ground, covering: Covering, name: str, progress: Progress | None) -> Area:
+        """Return the area that covers a ground as the options say."""
+        if self.align == "corner":
+            return cover(ground, covering, name=name, progress=progress)
+        return cover_aligned(ground, covering, self.align, name=name)
+
     def covering_of(self, path: object, kind: str, east: float, south: float) -> Covering:
         """Return how to cover a place of so many metres; raise FormatError if there is no cell size or too large a one.
 
         Files in degrees or kilometres draw places smaller than a cell.
         """
-        if self.cell_size is None:
+        if self.edge_step is None:
             raise FormatError(
                 f"{path}: {kind} is measured in metres: say how far apart the centres of neighbouring cells shall be, "
-                "cell_size 0.5 for half a metre (--cell-size on the command line)"
+                "cell_size 0.5 for half a metre (--cell-size on the command line), or how large robots are "
+                "(--robot-radius)"
             )
-        covering = Covering(self.tessellation, self.cell_size, self.robot_radius)
+        covering = Covering(self.tessellation, self.edge_step, self.robot_radius)
         if max(east, south) < covering.cell_size:
-            raise FormatError(
+            raise NoRoomError(
                 f"{path}: {kind} must be larger than a cell of {covering.cell_size:g} metres, not {east:.3g} by "
                 f"{south:.3g} metres: numbers are metres, not degrees or kilometres"
             )

@@ -3,32 +3,31 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
-from dataclasses import dataclass
-from itertools import groupby
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Area, Ground, cover_polygons, import_shapely
+from trihex.areas import Area, DrawnGround, Zone, import_shapely
 from trihex.areas.coverage import Progress
 from trihex.errors import AreaError, FormatError
-from trihex.formats.areas.options import AreaOptions
+from trihex.formats.areas.exits import cells_of_exit
+from trihex.formats.areas.options import AreaOptions, NoRoomError
 from trihex.formats.draft import Draft
 from trihex.record import Record
 
 # The Earth is 4e7 metres around.
 MOST_METRES = 1e9
-_GROUND_PIXELS = 500_000
 
 
 class Drawn(NamedTuple):
-    """A geometry that a file draws, and where in the file it stands, for messages."""
+    """A geometry that a file draws, where in the file it stands, for messages, and its name if it has one."""
 
     where: str
     shape: Any
+    name: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +43,7 @@ class Place(Record):
     obstacle : list of Drawn
         What is occupied although it lies in `free`.
     destination : list of Drawn
-        A point stands for its cell, anything else for the free cells it touches.
+        A point stands for its cell, anything else for the free cells it touches, or those that lead through it.
     robot : list of Drawn
         Points.
     """
@@ -71,41 +70,25 @@ def draft_of_place(place: Place, options: AreaOptions, progress: Progress | None
     if free.area == 0:
         raise FormatError(f"{path}: there must be a polygon that is free; there is none with an area")
     west, south, east, north = free.bounds
-    area = cover_polygons(
-        free,
-        options.covering_of(path, "a place drawn by polygons", east - west, north - south),
-        obstacles=obstacles,
-        name=Path(path).stem,
-        progress=progress,
-    )
+    covering = options.covering_of(path, "a place drawn by polygons", east - west, north - south)
+    area = options.area_of(DrawnGround(free, obstacles), covering, Path(path).stem, progress)
     destinations = [
-        _cells_of_points(area, list(some), "destination") if is_point else _cells_touched(area, some)
-        for is_point, some in groupby(place.destination, lambda drawn: drawn.shape.geom_type == "Point")
+        _cells_of_points(area, [drawn], "destination")
+        if drawn.shape.geom_type == "Point"
+        else cells_of_exit(area, drawn.where, drawn.shape)
+        for drawn in place.destination
+    ]
+    zones = [
+        Zone(drawn.name, cells) for drawn, cells in zip(place.destination, destinations, strict=True) if drawn.name
     ]
     return Draft(
-        area,
+        replace(area, zones=tuple(zones)),
         np.concatenate(destinations) if destinations else None,
         _cells_of_points(area, place.robot, "robot") if place.robot else None,
-        ground=_ground(area, free, obstacles),
     )
 
 
-def _ground(area: Area, free: Any, obstacles: Any) -> Ground:
-    """Return a raster of what is occupied: pixels whose centre is not free, or half a pixel from an obstacle."""
-    import shapely
-
-    across, down = area.tessellation.extent(area.height, area.width)
-    square = max(1 / 16, (across * down / _GROUND_PIXELS) ** 0.5)
-    py, px = np.mgrid[0:down:square, 0:across:square] + square / 2
-    x, y = area.metres.point_to_metres(px, py)
-    occupied = ~shapely.contains_xy(free, x, y)
-    if obstacles is not None:
-        shapely.prepare(obstacles)
-        occupied |= shapely.dwithin(obstacles, shapely.points(x, y), square * area.metres.cell_size / 2)
-    return Ground(occupied, square)
-
-
-def checked_parts(where: str, shape: Any) -> list[Drawn]:
+def checked_parts(where: str, shape: Any, name: str = "") -> list[Drawn]:
     """Return the points, lines and polygons of a shape in whole nanometres, each apart.
 
     So polygons of one MultiPolygon may touch and overlap as those of several features may.
@@ -123,9 +106,9 @@ def checked_parts(where: str, shape: Any) -> list[Drawn]:
     leaves = [shapely.transform(shapely.force_2d(shape), lambda coordinates: np.round(coordinates, 9))]
     while any(leaf.geom_type.startswith(("Multi", "GeometryCollection")) for leaf in leaves):
         leaves = list(shapely.get_parts(leaves))
-    drawn = [Drawn(f"{where}: part {i}" if len(leaves) > 1 else where, leaf) for i, leaf in enumerate(leaves)]
+    drawn = [Drawn(f"{where}: part {i}" if len(leaves) > 1 else where, leaf, name) for i, leaf in enumerate(leaves)]
     for i in np.flatnonzero(~shapely.is_valid(leaves)):
-        place, leaf = drawn[i]
+        place, leaf, _ = drawn[i]
         raise FormatError(f"{place}: a {leaf.geom_type} is invalid: {shapely.is_valid_reason(leaf)}")
     return drawn
 
@@ -137,38 +120,10 @@ def _cells_of_points(area: Area, points: list[Drawn], what: str) -> NDArray[np.i
     try:
         return area.metres_to_cell(*shapely.get_coordinates([drawn.shape for drawn in points]).T)
     except AreaError:
-        for where, shape in points:
+        for where, shape, _ in points:
             try:
                 area.metres_to_cell(shape.x, shape.y)
             except AreaError as error:
-                raise FormatError(f"{where}: a {what}: {error}") from None
+                kind = NoRoomError if what == "destination" else FormatError
+                raise kind(f"{where}: a {what}: {error}") from None
         raise
-
-
-def _cells_touched(area: Area, shapes: Iterable[Drawn]) -> NDArray[np.int64]:
-    """Return the numbers of the free cells that lines or polygons touch."""
-    import shapely
-
-    free = np.flatnonzero(~area.barriers.reshape(-1))
-    x, y = area.cell_to_metres(free)
-    reach = 2 * area.metres.cell_size  # no cell is wider
-    found = []
-    for where, shape in shapes:
-        west, south, east, north = shape.bounds
-        near = (x > west - reach) & (x < east + reach) & (y > south - reach) & (y < north + reach)
-        corners = area.tessellation.polygon_of_cell(*area.cell_to_xy(free[near]))
-        polygons = shapely.polygons(np.stack(area.metres.point_to_metres(corners[..., 0], corners[..., 1]), axis=-1))
-        shapely.prepare(shape)
-        found.append(free[near][shapely.intersects(shape, polygons)])
-        if found[-1].size == 0:
-            hint = "none is free"
-            if free.size:
-                away = shapely.distance(shape, shapely.points(x, y))
-                nearest = int(np.argmin(away))
-                cell = area.place_of_cell(int(free[nearest]))
-                hint = f"the nearest is {cell}, its centre {away[nearest]:.3g} metres away"
-            raise FormatError(
-                f"{where}: a destination between ({west:g}, {south:g}) and ({east:g}, {north:g}) metres touches no "
-                f"free cell; {hint}"
-            )
-    return np.concatenate(found)

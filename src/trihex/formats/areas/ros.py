@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Ground, cover_raster
+from trihex.areas import RasterGround
 from trihex.areas.coverage import Progress
 from trihex.errors import FormatError, check_choice
 from trihex.files import read_bytes
@@ -53,18 +53,16 @@ def parse_ros(text: Text, path: str | os.PathLike[str], options: AreaOptions, pr
     width, height = pixels.grey.shape[1] * resolution, pixels.grey.shape[0] * resolution
     covering = options.covering_of(path, f"a ROS map ({width:g} by {height:g} metres)", width, height)
     occupied, free = _states(entries, pixels, path)
-    area = cover_raster(
+    ground = RasterGround(
         occupied if options.unknown == "free" else ~free,
-        covering,
-        resolution=resolution,
+        resolution,
         # The origin is the lower left corner; y grows to the north in the world, rows to the south in the image.
-        origin=(west - height * sin(yaw), south + height * cos(yaw)),
-        yaw=yaw,
-        is_outside_occupied=options.unknown == "barrier",
-        name=Path(path).stem,
-        progress=progress,
+        (west - height * sin(yaw), south + height * cos(yaw)),
+        yaw,
+        options.unknown == "barrier",
+        shown=occupied,
     )
-    return Draft(area, ground=Ground(occupied, resolution / covering.cell_size))
+    return Draft(options.area_of(ground, covering, Path(path).stem, progress))
 
 
 def _states(

@@ -11,16 +11,17 @@ from pydantic import Field
 
 from trihex.errors import FormatError, TrihexError, check_choice, check_many
 from trihex.files import new_file, suffix_of
-from trihex.formats.schema import Table, check_document, choice
+from trihex.formats.schema import Number, Points, Table, check_document, choice
 from trihex.formats.text import Text, read_text
 from trihex.formats.toml import complaint, parse_toml
 from trihex.running import KINDS, MOST_STEPS, Event
 
 SUFFIXES = (".csv", ".toml")
-COLUMNS = ("step", "event", "x", "y", "to_x", "to_y", "robot", "steps")
+COLUMNS = ("step", "event", "x", "y", "to_x", "to_y", "robot", "steps", "zone", "metres", "to_metres")
 MAX_BYTES = 2**26
 
 _Step = Annotated[int, Field(ge=1, le=MOST_STEPS)]
+_Point = Annotated[list[Number], Field(min_length=2, max_length=2)]
 _Cell = Annotated[list[Annotated[int, Field(ge=-(2**30), le=2**30)]], Field(min_length=2, max_length=2)]
 
 
@@ -33,6 +34,9 @@ class EventTable(Table):
     to: _Cell | None = None
     robot: Annotated[int, Field(ge=0, le=MOST_STEPS)] | None = None
     steps: _Step | None = None
+    zone: str | None = None
+    metres: Points | _Point | None = None
+    to_metres: _Point | None = None
 
 
 class EventsTable(Table):
@@ -44,9 +48,11 @@ class EventsTable(Table):
 def read_events(path: str | os.PathLike[str]) -> tuple[Event, ...]:
     """Return the events of a file, in its order.
 
-    CSV has a header with `step`, `event` and those of `x`, `y`, `to_x`, `to_y`, `robot`, `steps` that are needed, in
-    any order; what an event does not need stays empty. TOML has a table ``[[event]]`` for each, with the keys `step`,
-    `event` and `cell`, `to` (each ``[x, y]``), `robot`, `steps`.
+    CSV has a header with `step`, `event` and those of `x`, `y`, `to_x`, `to_y`, `robot`, `steps`, `zone`, `metres`,
+    `to_metres` that are needed, in any order; what an event does not need stays empty. TOML has a table ``[[event]]``
+    for each, with the keys `step`, `event` and `cell`, `to` (each ``[x, y]``), `robot`, `steps`, `zone` (the name of an
+    exit), `metres`, `to_metres` (``[x, y]``; ``[[x, y], ...]`` for an obstacle). In CSV places in metres are written as
+    ``3.2 -1``, several as ``3.2 -1; 4 -1; 4 0``.
 
     Raises
     ------
@@ -66,7 +72,8 @@ def _from_toml(text: Text, path: str | os.PathLike[str]) -> tuple[Event, ...]:
     for number, one in enumerate(table.event if table is not None and not mistakes else ()):
         try:
             cell, to = (None if place is None else (place[0], place[1]) for place in (one.cell, one.to))
-            events.append(Event(one.step, one.event, cell, to, one.robot, one.steps))
+            others = (one.robot, one.steps, one.zone, one.metres, one.to_metres)
+            events.append(Event(one.step, one.event, cell, to, *others))  # type: ignore[arg-type]
         except TrihexError as error:
             mistakes.append(f"event.{number}: {error}")
     if mistakes:
@@ -75,17 +82,19 @@ def _from_toml(text: Text, path: str | os.PathLike[str]) -> tuple[Event, ...]:
 
 
 def _from_csv(text: Text, path: str | os.PathLike[str]) -> tuple[Event, ...]:
-    lines = text.decode().splitlines() or [""]
-    header = [name.strip() for name in lines[0].split(",")]
+    try:
+        lines = [*csv.reader(text.decode().splitlines())] or [[]]
+    except csv.Error as error:
+        raise FormatError(f"{path}: is no CSV: {error}") from None
+    header = [name.strip() for name in lines[0]]
     for name in header:
         check_choice(f"{path}: line 1: a column", name, COLUMNS, FormatError)
     if len(set(header)) < len(header) or not {"step", "event"} <= set(header):
         raise FormatError(f"{path}: line 1: the header must have step and event, and each column once")
     events = []
-    for number, line in enumerate(lines[1:], start=2):
-        if not line.strip():
+    for number, values in enumerate(lines[1:], start=2):
+        if not "".join(values).strip():
             continue
-        values = line.split(",")
         if len(values) != len(header):
             raise FormatError(f"{path}: line {number}: there must be {len(header)} columns, not {len(values)}")
         try:
@@ -99,7 +108,7 @@ def _event_of(row: dict[str, str]) -> Event:
     """Return the event of a row of text."""
     numbers: dict[str, Any] = {}
     for name, text in row.items():
-        if name != "event" and text.strip():
+        if name not in ("event", "zone", "metres", "to_metres") and text.strip():
             try:
                 numbers[name] = int(text) if len(text) <= 20 else None
             except ValueError:
@@ -113,7 +122,29 @@ def _event_of(row: dict[str, str]) -> Event:
             raise FormatError(f"{one} and {other} must come together")
     cell = (numbers["x"], numbers["y"]) if "x" in numbers else None
     to = (numbers["to_x"], numbers["to_y"]) if "to_x" in numbers else None
-    return Event(numbers["step"], row["event"].strip(), cell, to, numbers.get("robot"), numbers.get("steps"))
+    return Event(
+        numbers["step"],
+        row["event"].strip(),
+        cell,
+        to,
+        numbers.get("robot"),
+        numbers.get("steps"),
+        row.get("zone", "").strip() or None,
+        _points_of("metres", row),
+        _points_of("to_metres", row),
+    )
+
+
+def _points_of(name: str, row: dict[str, str]) -> Any:
+    """Return the points of text such as 3.2 -1; 4 -1, None if there is none."""
+    text = row.get(name, "").strip()
+    try:
+        points = [tuple(float(number) for number in pair.split()) for pair in text.split(";") if text]
+    except ValueError:
+        points = [()]
+    if any(len(pair) != 2 for pair in points):
+        raise FormatError(f"{name} must be X Y in metres, or several as X Y; X Y, not {text[:40]!r}")
+    return points or None
 
 
 def write_events(events: tuple[Event, ...], path: str | os.PathLike[str]) -> None:
@@ -125,5 +156,6 @@ def write_events(events: tuple[Event, ...], path: str | os.PathLike[str]) -> Non
         writer.writerow(COLUMNS)
         for event in events:
             places = [*(event.cell or ("", "")), *(event.to or ("", ""))]
-            others = ["" if value is None else value for value in (event.robot, event.steps)]
-            writer.writerow([event.step, event.kind, *places, *others])
+            others = ["" if value is None else value for value in (event.robot, event.steps, event.zone)]
+            metres = ["; ".join(f"{x!r} {y!r}" for x, y in own or ()) for own in (event.metres, event.to_metres)]
+            writer.writerow([event.step, event.kind, *places, *others, *metres])

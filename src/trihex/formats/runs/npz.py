@@ -18,7 +18,7 @@ from trihex.kernels.codes import LATE, WAIT
 from trihex.running import BROKEN, KINDS, Event, Occurrence, Run, Sensor
 
 VERSION = 1
-_CHANGES = ("blocked", "freed", "opened", "closed")
+_CHANGES = ("blocked", "freed", "opened", "closed", "left_out")
 _NONE = -(2**31)
 _ENTRIES: Entries = {
     "version": ("i", 0),
@@ -30,6 +30,8 @@ _ENTRIES: Entries = {
     "run_seed": ("i", 0),
     "events": ("i", 2),  # step, kind, x, y, to_x, to_y, robot, steps
     "refusals": ("u", 1),  # UTF-8, a line for each event
+    "zones_of_events": ("u", 1),  # the same
+    "metres_of_events": ("f", 2),  # event, 0 or, of to_metres, 1, x, y
     "changes": ("i", 2),  # event, which of `_CHANGES`, cell
     "starts": ("i", 1),
     "joined": ("i", 1),
@@ -65,6 +67,18 @@ def write_run(run: Run, path: str | os.PathLike[str], *, progress: Callable[[int
             "run_seed": run.seed,
             "events": np.array(events, dtype=np.int64).reshape(-1, 8),
             "refusals": np.frombuffer("\n".join(refusals).encode(), dtype=np.uint8),
+            "zones_of_events": np.frombuffer(
+                "\n".join(one.event.zone or "" for one in run.occurrences).encode(), dtype=np.uint8
+            ),
+            "metres_of_events": np.array(
+                [
+                    (number, which, *point)
+                    for number, one in enumerate(run.occurrences)
+                    for which, points in enumerate((one.event.metres, one.event.to_metres))
+                    for point in points or ()
+                ],
+                dtype=np.float64,
+            ).reshape(-1, 4),
             "changes": np.array(changes, dtype=np.int64).reshape(-1, 3),
             "starts": run.robots,
             "joined": run.joined,
@@ -117,8 +131,8 @@ def read_run(path: str | os.PathLike[str]) -> Run:
 
 def _occurrences(arrays: dict[str, Any], cells: int, path: object) -> tuple[Occurrence, ...]:
     events, changes = arrays["events"], arrays["changes"]
-    refusals = arrays["refusals"].tobytes().decode(errors="replace").split("\n") if len(events) else []
-    if events.shape[1] != 8 or len(refusals) != len(events) or changes.shape[1] != 3:
+    refusals, zones = (_lines(arrays[name], len(events)) for name in ("refusals", "zones_of_events"))
+    if events.shape[1] != 8 or not len(refusals) == len(zones) == len(events) or changes.shape[1] != 3:
         raise FormatError(f"{path}: events, refusals and changes do not fit each other")
     if changes.size and (changes.min() < 0 or (changes.max(axis=0) >= (len(events), len(_CHANGES), cells)).any()):
         raise FormatError(f"{path}: changes must name an event, what is changed and a cell of the area")
@@ -127,14 +141,33 @@ def _occurrences(arrays: dict[str, Any], cells: int, path: object) -> tuple[Occu
         own = changed[number]
         own[_CHANGES[which]] = (*own.get(_CHANGES[which], ()), cell)
     result = []
-    for (step, kind, *numbers), refusal, own in zip(events.tolist(), refusals, changed, strict=True):
+    places = _places(arrays["metres_of_events"], len(events), path)
+    rows = zip(events.tolist(), refusals, zones, places, changed, strict=True)
+    for (step, kind, *numbers), refusal, zone, metres, own in rows:
         if not 0 <= kind < len(KINDS):
             raise FormatError(f"{path}: there is no event of kind {kind}")
         x, y, to_x, to_y = numbers[:4]
         robot, steps = (None if number == _NONE else number for number in numbers[4:])
         cell, to = (None if x == _NONE else (x, y)), (None if to_x == _NONE else (to_x, to_y))
-        result.append(Occurrence(Event(step, list(KINDS)[kind], cell, to, robot, steps), refusal, **own))
+        event = Event(step, list(KINDS)[kind], cell, to, robot, steps, zone or None, *metres)
+        result.append(Occurrence(event, refusal, **own))
     return tuple(result)
+
+
+def _places(table: NDArray[np.float64], count: int, path: object) -> list[list[Any]]:
+    """Return `metres` and `to_metres` of each event."""
+    places: list[list[Any]] = [[None, None] for _ in range(count)]
+    for number, which, x, y in table.tolist() if table.shape[1] == 4 else [(-1, 0, 0, 0)]:
+        if not 0 <= number < count or which not in (0, 1):
+            raise FormatError(f"{path}: metres_of_events must hold an event, 0 or 1, x and y in each row")
+        own = places[int(number)]
+        own[int(which)] = [*(own[int(which)] or []), (x, y)]
+    return places
+
+
+def _lines(text: NDArray[np.uint8], count: int) -> list[str]:
+    """Return text as lines; none if there are to be none."""
+    return text.tobytes().decode(errors="replace").split("\n") if count else []
 
 
 def _check(run: Run, path: object) -> None:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Area, Frame, Scenario, Tessellation
+from trihex.areas import Area, Frame, Scenario, Tessellation, Zone
 from trihex.errors import FormatError
 from trihex.formats.archive import Entries
 
@@ -20,6 +20,8 @@ SCENARIO_ENTRIES: Entries = {
     "area": ("U", 0),
     "barriers": ("b", 2),
     "frame": ("f", 1),  # cell size, origin x and y, yaw, robot radius; or nothing
+    "zone_names": ("u", 1),  # UTF-8, a line each
+    "zone_cells": ("i", 2),  # zone, cell
     "destinations": ("i", 1),
     "robots": ("i", 1),
     "waiting_cost": ("i", 0),
@@ -41,6 +43,10 @@ def scenario_arrays(scenario: Scenario) -> dict[str, Any]:
         "area": area.name,
         "barriers": area.barriers,
         "frame": np.array([] if (at := area.frame) is None else [at.cell_size, *at.origin, at.yaw, at.robot_radius]),
+        "zone_names": np.frombuffer("\n".join(zone.name for zone in area.zones).encode(), dtype=np.uint8),
+        "zone_cells": np.array(
+            [(number, cell) for number, zone in enumerate(area.zones) for cell in zone.cells.tolist()], dtype=np.int64
+        ).reshape(-1, 2),
         "destinations": scenario.destinations,
         "robots": scenario.robots,
         "waiting_cost": scenario.waiting_cost,
@@ -58,7 +64,7 @@ def scenario_from(arrays: dict[str, Any], path: object, kind: type[Scenario] = S
     seed, capacity = int(arrays["seed"]), int(arrays["destination_capacity"])
     tessellation = Tessellation(text["tessellation"], text["neighbourhood"], text["costs"])
     return kind(
-        Area(tessellation, arrays["barriers"], text["area"], _frame(arrays["frame"], path)),
+        Area(tessellation, arrays["barriers"], text["area"], _frame(arrays["frame"], path), _zones(arrays, path)),
         arrays["destinations"],
         arrays["robots"],
         int(arrays["waiting_cost"]),
@@ -68,6 +74,13 @@ def scenario_from(arrays: dict[str, Any], path: object, kind: type[Scenario] = S
         None if seed == -1 else seed,
         **{name: text[name] for name in LATER_ENTRIES},
     )
+
+
+def _zones(arrays: dict[str, Any], path: object) -> tuple[Zone, ...]:
+    names, cells = arrays["zone_names"].tobytes().decode(errors="replace").split("\n"), arrays["zone_cells"]
+    if cells.shape[1] != 2 or (cells.size and not 0 <= cells[:, 0].min() <= cells[:, 0].max() < len(names)):
+        raise FormatError(f"{path}: entry 'zone_cells' must hold a zone and a cell in each row")
+    return tuple(Zone(name, cells[cells[:, 0] == number, 1]) for number, name in enumerate(names) if name)
 
 
 def _frame(numbers: NDArray[np.float64], path: object) -> Frame | None:

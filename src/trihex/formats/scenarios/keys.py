@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 from pydantic import AfterValidator, Field
 
-from trihex.areas import CLOCKS, CORNERS, COSTS, CROSSINGS, FOLLOWINGS, NEIGHBOURHOODS, TESSELLATIONS
+from trihex.areas import ALIGNS, CLOCKS, CORNERS, COSTS, CROSSINGS, FOLLOWINGS, NEIGHBOURHOODS, TESSELLATIONS
 from trihex.formats.areas.options import UNKNOWNS
 from trihex.formats.schema import Cells, Count, Number, Points, Table, Whole, choice
 
@@ -32,6 +32,7 @@ class AreaTable(Table):
     neighbourhood: Annotated[str, choice("it", NEIGHBOURHOODS)] = "full"
     costs: Annotated[str, choice("it", COSTS)] = "paper"
     frame: FrameTable | None = None
+    zones: dict[str, Cells] = Field(default_factory=dict)
     # How the file at `path` is read; see `formats.options.AreaOptions`.
     cell_size: Annotated[Number, Field(gt=0)] | None = None
     robot_radius: Annotated[Number, Field(ge=0)] | None = None
@@ -39,6 +40,7 @@ class AreaTable(Table):
     threshold: Annotated[Number, Field(ge=0, le=1)] | None = None
     invert: bool | None = None
     resolution: Annotated[Number, Field(gt=0)] | None = None
+    align: Annotated[str, choice("it", ALIGNS)] | None = None
 
 
 class RulesTable(Table):

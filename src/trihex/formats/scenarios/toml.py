@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Area, Frame, Scenario, Tessellation, cells_from
+from trihex.areas import Area, Frame, Scenario, Tessellation, Zone, cells_from
 from trihex.errors import FormatError, ScenarioError, TrihexError
 from trihex.files import new_file
 from trihex.formats.areas.letters import draft_of_letters
@@ -99,7 +99,6 @@ def _draft_of(
         **table.rules.model_dump(),
         planner=table.planner.name,
         planner_options=table.planner.options,
-        ground=draft.ground,
         outputs=_outputs(table, path),
     )
 
@@ -112,7 +111,7 @@ def _outputs(table: ScenarioTable, path: Path) -> dict[str, Any]:
 
 def _area_draft(table: AreaTable, path: Path, read_area_draft: Callable[[Path, AreaOptions], Draft]) -> Draft:
     tessellation = Tessellation(table.tessellation, table.neighbourhood, table.costs)
-    names = ("cell_size", "robot_radius", "unknown", "threshold", "invert", "resolution")
+    names = ("cell_size", "robot_radius", "unknown", "threshold", "invert", "resolution", "align")
     options = {name: value for name in names if (value := getattr(table, name)) is not None}
     if table.path is not None:
         draft = read_area_draft(path.parent / table.path, AreaOptions(tessellation, **options))
@@ -127,8 +126,9 @@ def _area_draft(table: AreaTable, path: Path, read_area_draft: Callable[[Path, A
     if table.frame is not None:
         x, y = table.frame.origin
         frame = Frame(table.frame.cell_size, (x, y), table.frame.yaw, table.frame.robot_radius)
-    area = Area(tessellation, draft.area.barriers, name, frame)
-    return replace(draft, area=area)
+    area = replace(draft.area, tessellation=tessellation, name=name, frame=frame)
+    zones = [Zone(name, cells_from(area, cells, f"zones.{name}", ScenarioError)) for name, cells in table.zones.items()]
+    return replace(draft, area=replace(area, zones=(*area.zones, *zones)))
 
 
 def write_scenario_toml(
@@ -193,6 +193,7 @@ def _area_lines(area: Area) -> list[str]:
         *(f"  {_text(row)}," for row in rows),
         "]",
         *_frame_lines(area),
+        *_zone_lines(area),
     ]
 
 
@@ -221,6 +222,12 @@ def _frame_lines(area: Area) -> list[str]:
         f"yaw = {frame.yaw!r}",
         f"robot_radius = {frame.robot_radius!r}",
     ]
+
+
+def _zone_lines(area: Area) -> list[str]:
+    if not area.zones:
+        return []
+    return ["", "[area.zones]", *(f"{_text(zone.name)} = {_cells(area, zone.cells)}" for zone in area.zones)]
 
 
 def _cells(area: Area, cells: NDArray[np.int64]) -> str:

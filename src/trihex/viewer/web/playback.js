@@ -7,6 +7,8 @@ const WAIT = 255, JUMP = 254;
 
 export const HIDDEN = 0, MOVING = 1, WAITING = 2, FINAL = 3, STRANDED = 4; // and 5, late, in live runs
 
+const MOST_DRAWN = 500000; // actions of robots whose paths are drawn
+
 const KEPT = ["site", "index", "begun"]; // where each robot is along its actions
 const CURVES = ["moving", "waiting", "arrived", "spent", "least_total"]; // by step
 
@@ -169,6 +171,16 @@ export class Playback {
         y[r] = cy + 0.5;
       }
     }
+  }
+
+  // The cells of the way of each robot, without its waits; null where they would be too many to be drawn.
+  paths() {
+    if (this.actions.length > MOST_DRAWN) return null;
+    this.ways ??= Array.from({ length: this.count }, (_, r) => {
+      const cells = this.robot(r).rows.map(({ cell }) => cell);
+      return cells.filter((cell, k) => !k || cell !== cells[k - 1]);
+    });
+    return this.ways;
   }
 
   // Cells and times of one robot, from its start to its last action.

@@ -1,7 +1,9 @@
 // Rules: the cells of the document and how robots move on them, as the panel lets them be chosen.
 
 import { h, title, wholeOf } from "./words.js";
-import { grid, inner, numberField, section, select } from "./controls.js";
+import { button, grid, inner, note, numberField, section, select } from "./controls.js";
+import { mayLeak } from "./leaks.js";
+import { OF_RULES } from "./sentences.js";
 
 export class Rules {
   constructor(app) {
@@ -25,7 +27,11 @@ export class Rules {
       destination_capacity: numberField("Arrivals per step and destination", "",
         { min: 1, placeholder: "any", onchange: whole("destination_capacity") }),
     };
-    this.element = section("Cells and rules", this.tessellation, inner("Rules", grid(Object.values(this.fields))));
+    for (const [name, field] of Object.entries(this.fields)) field.setAttribute("title", OF_RULES[name]);
+    this.squeeze = note("Robots may squeeze between walls that touch at a corner: ",
+      button("close the gaps", () => this.#rule("corners", "no-squeeze"), { class: "link" }));
+    this.element = section("Cells and rules", this.tessellation, this.squeeze,
+      inner("Rules", grid(Object.values(this.fields))));
   }
 
   #rule(name, value) { this.app.change({ header: { ...this.app.doc.header, [name]: value } }); }
@@ -42,7 +48,8 @@ export class Rules {
   }
 
   show() {
-    const { header } = this.app.doc;
+    const { doc } = this.app, { header } = doc;
+    this.squeeze.hidden = !mayLeak(doc);
     const radios = this.tessellation.querySelectorAll("input");
     for (const radio of radios) radio.checked = radio.value === header.tessellation;
     for (const [name, field] of Object.entries(this.fields)) field.lastChild.value = header[name] ?? "";

@@ -3,8 +3,9 @@
 import { documentOf } from "./documents.js";
 import { Playback } from "./playback.js";
 
-export function runOf({ header, arrays }, doc = null) {
-  const place = doc ?? documentOf(header.document, arrays);
+// A plan on a document of the page, or on its own, with what stands beneath it.
+export function runOf({ header, arrays }, doc = null, ground = null) {
+  const place = doc ?? { ...documentOf(header.document, arrays), ground };
   return { ...header, playback: new Playback({ header, arrays }, place), doc: place };
 }
 

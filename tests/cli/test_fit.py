@@ -1,0 +1,98 @@
+"""Command line: `trihex fit`, its table, its picture and what it refuses."""
+
+import json
+import re
+
+import pytest
+from click.testing import CliRunner
+from PIL import Image
+
+from trihex.cli import main
+
+HALL = [[0, 0], [9, 0], [9, 6], [0, 6], [0, 0]]
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    exit_ = {"type": "LineString", "coordinates": [[9, 2], [9, 4]]}
+    features = [({"kind": "free"}, {"type": "Polygon", "coordinates": [HALL]}), ({"kind": "destination"}, exit_)]
+    document = {
+        "type": "FeatureCollection",
+        "features": [{"type": "Feature", "properties": p, "geometry": g} for p, g in features],
+    }
+    (tmp_path / "hall.geojson").write_text(json.dumps(document))
+    (tmp_path / "hall.wkt").write_text("POLYGON ((0 0, 9 0, 9 6, 0 6, 0 0))")
+    (tmp_path / "world.txt").write_text("D..a\n")
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def fit(*command, status=0):
+    result = CliRunner().invoke(main, ["fit", *map(str, command)])
+    assert result.exit_code == status, result.output
+    return result.output
+
+
+def test_the_table_and_the_picture(folder):
+    lines = fit("hall.geojson", "--robot-radius", 0.2, "--align", "corner", "--picture", "fit.png").splitlines()
+    assert lines[0].split() == [
+        "cells",
+        "neighbours",
+        "following",
+        "cell",
+        "size",
+        "radius",
+        "free",
+        "connected",
+        "reach",
+        "greatest",
+        "grid",
+    ]
+    rows = [line.split() for line in lines[2:12]]
+    assert [row[:5] for row in rows[4:6]] == [
+        ["hexagonal", "6", "allow", "0.8", "m"],
+        ["hexagonal", "6", "forbid", "0.4619", "m"],
+    ]
+    assert len(rows) == 10 and all("100.0" in row for row in rows) and lines[12] == "written: fit.png"
+    with Image.open("fit.png") as image:
+        assert image.width > 4 * 460
+
+
+def test_one_kind_without_a_radius_or_a_destination(folder):
+    square = ("--tessellation", "square", "--neighbourhood", "edge", "--align", "corner")
+    rows = [re.split(" {2,}", line) for line in fit("hall.geojson", *square).splitlines()[2:]]
+    assert len(rows) == 2 and rows[0][4] == rows[0][8]  # the greatest robots are those that it shows
+    row = re.split(" {2,}", fit("hall.wkt", *square, "--cell-size", 0.5).splitlines()[2])
+    assert row[4] == "0.1767 m" and row[7:9] == ["-", "-"]
+    assert "square, 4 neighbours, following allow: cells must be at least 0.7072 metres" in fit(
+        "hall.wkt", *square, "--cell-size", 0.6, "--robot-radius", 0.25
+    )
+
+
+@pytest.mark.parametrize(
+    ("command", "message"),
+    [
+        (
+            ["world.txt", "--cell-size", "0.5"],
+            "world.txt: has one cell for each letter; robot_radius needs a place with walls in metres",
+        ),
+        (["hall.wkt"], "no robot reaches a destination: add --robot-radius R, --cell-size S or --destination X,Ym"),
+        (["hall.wkt", "--robot-radius", "0.2", "--destination", "3,3"], "--destination must be in metres, X,Ym"),
+        (["none.wkt", "--robot-radius", "0.2"], "none.wkt"),
+        (["hall.wkt", "--robot-radius", "0.2", "--picture", "a.gif"], "the suffix of a picture must be one of .png"),
+    ],
+)
+def test_what_is_refused(folder, command, message):
+    assert message in fit(*command, status=2)
+
+
+def test_robots_that_find_no_room(folder):
+    assert "must be larger than a cell" in fit("hall.wkt", "--robot-radius", 3, "--align", "corner", status=1)
+
+
+def test_a_radius_alone_is_enough_to_plan_and_compare(folder):
+    for command in (["plan"], ["compare", "--planners", "greedy"]):
+        result = CliRunner().invoke(
+            main, [*command, "hall.geojson", "--robot-radius", "0.1", "--robots", "5", "--align", "best"]
+        )
+        assert result.exit_code == 0, result.output
