@@ -52,6 +52,13 @@ class AreaOptions(Record):
     align : {"corner", "best", "shift"}
         Where the grid begins and how it is turned: at the north-west corner along its sides; so that the largest
         connected part has most cells; or the best of a few shifts.
+    walls, exits, rooms : str, optional
+        Names of layers of a DXF file, parted by commas; ``*`` stands for any letters. Default: ``*wall*``, or all where
+        no layer is called so, ``*exit*`` and ``*room*``.
+    unit : str, optional
+        What lengths in a DXF file are measured in: m, cm, mm, km, in, ft or yd. Default: as the file says.
+    wall_thickness : float
+        Of the lines of a DXF file that are walls, in metres.
 
     Raises
     ------
@@ -67,6 +74,11 @@ class AreaOptions(Record):
     invert: bool = False
     resolution: float | None = None
     align: str = "corner"
+    walls: str | None = None
+    exits: str | None = None
+    rooms: str | None = None
+    unit: str | None = None
+    wall_thickness: float = 0.0
 
     def __post_init__(self) -> None:
         self._set("tessellation", tessellation_from(self.tessellation))
@@ -74,6 +86,8 @@ class AreaOptions(Record):
         check_choice("align", self.align, (*ALIGNS, "shift"), FormatError)
         if not isinstance(self.threshold, Real) or not 0 <= self.threshold <= 1:
             raise FormatError(f"threshold must be between 0 and 1, not {self.threshold!r:.80}")
+        if not isinstance(self.wall_thickness, Real) or not 0 <= self.wall_thickness <= 1e3:
+            raise FormatError(f"wall_thickness must be between 0 and 1000 metres, not {self.wall_thickness!r:.80}")
         if self.resolution is not None:
             if not isinstance(self.resolution, Real) or not 1e-9 <= self.resolution <= 1e9:
                 raise FormatError(f"resolution must be between 1e-9 and 1e9 metres, not {self.resolution!r:.80}")
