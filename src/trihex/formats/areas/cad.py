@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections import Counter, defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -90,6 +91,7 @@ def read_drawing(content: bytes, path: object, unit: str | None = None) -> Drawi
         from ezdxf.lldxf.tagger import binary_tags_loader
     except ImportError:
         raise MissingExtraError("DXF needs ezdxf: pip install 'trihex[cad]'") from None
+    logging.getLogger("ezdxf").addHandler(logging.NullHandler())  # what it repairs it would print
     if unit is not None:
         check_choice(f"{path}: unit", unit, UNITS, FormatError)
     try:
@@ -100,13 +102,15 @@ def read_drawing(content: bytes, path: object, unit: str | None = None) -> Drawi
         drawing = Drawing(unit=_UNIT_OF_NUMBER.get(document.units))
         scale = UNITS[unit or drawing.unit or "m"]
         points = 0
-        for count, (entity, layer) in enumerate(_entities(document.modelspace()), start=1):
+        if (count := _count(document, document.modelspace(), {}, 0)) > _MOST_ENTITIES:
+            raise FormatError(
+                f"{path}: may draw at most {_MOST_ENTITIES} entities, those of blocks counted each time that they are "
+                f"used, not {count}"
+            )
+        for entity, layer in _entities(document.modelspace()):
             points += _take(entity, layer, scale, drawing)
-            if count > _MOST_ENTITIES or points > _MOST_POINTS:
-                raise FormatError(
-                    f"{path}: may draw at most {_MOST_ENTITIES} entities of {_MOST_POINTS} points, its blocks counted "
-                    "each time that they are used"
-                )
+            if points > _MOST_POINTS:
+                raise FormatError(f"{path}: may draw at most {_MOST_POINTS} points")
     except (FormatError, MemoryError):
         raise
     except RecursionError:
@@ -118,24 +122,36 @@ def read_drawing(content: bytes, path: object, unit: str | None = None) -> Drawi
     return drawing
 
 
+def _count(document: Any, space: Any, count_of_block: dict[str, int], depth: int) -> int:
+    """Return how many entities there are when all blocks are in place, before that is done."""
+    if depth > _DEEPEST:
+        raise RecursionError
+    count = 0
+    for entity in space:
+        count += 1
+        if entity.dxftype() != "INSERT" or (block := document.blocks.get(entity.dxf.name)) is None:
+            continue
+        name = entity.dxf.name.lower()
+        if name not in count_of_block:
+            count_of_block[name] = _count(document, block, count_of_block, depth + 1)
+        count += max(1, entity.mcount) * count_of_block[name]
+    return count
+
+
 def _entities(space: Any) -> Iterator[tuple[Any, str]]:
     """Yield the entities of the model space and their layers; in place of blocks what they are made of."""
-    waiting = [(entity, entity.dxf.layer, 0) for entity in list(space)[::-1]]
+    waiting = [(entity, entity.dxf.layer) for entity in list(space)[::-1]]
     while waiting:
-        entity, layer, depth = waiting.pop()
+        entity, layer = waiting.pop()
         if entity.dxftype() not in _MADE_OF_OTHERS:
             yield entity, layer
             continue
-        if depth >= _DEEPEST or len(waiting) > _MOST_ENTITIES:
-            raise RecursionError
         if entity.dxftype() == "INSERT" and entity.mcount > 1:
-            if entity.mcount > _MOST_ENTITIES:
-                raise RecursionError
-            waiting += [(one, layer, depth + 1) for one in entity.multi_insert()]
+            waiting += [(one, layer) for one in entity.multi_insert()]
             continue
         # What a block draws on layer 0 is on the layer of the block.
         parts = list(entity.virtual_entities())
-        waiting += [(one, layer if one.dxf.layer == "0" else one.dxf.layer, depth + 1) for one in parts[::-1]]
+        waiting += [(one, layer if one.dxf.layer == "0" else one.dxf.layer) for one in parts[::-1]]
 
 
 def _take(entity: Any, layer: str, scale: float, drawing: Drawing) -> int:
