@@ -126,6 +126,7 @@ from .viewer import (
     make_widget as make_widget,
     open_viewer as open_viewer,
     write_page as write_page,
+    write_site as write_site,
 )
 
 __all__: list[str]

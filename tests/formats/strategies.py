@@ -3,7 +3,19 @@
 import numpy as np
 from hypothesis import strategies as st
 
-from trihex.areas import CORNERS, COSTS, CROSSINGS, NEIGHBOURHOODS, TESSELLATIONS, Area, Frame, Scenario, Tessellation
+from trihex.areas import (
+    CLOCKS,
+    CORNERS,
+    COSTS,
+    CROSSINGS,
+    FOLLOWINGS,
+    NEIGHBOURHOODS,
+    TESSELLATIONS,
+    Area,
+    Frame,
+    Scenario,
+    Tessellation,
+)
 from trihex.kernels.codes import WAIT
 from trihex.plans import Plan, plan_from_lists
 
@@ -36,15 +48,18 @@ def scenarios(draw: st.DrawFn, *, most_robots: int = 6) -> Scenario:
     free = np.flatnonzero(~area.barriers.reshape(-1)).tolist()
     destinations = draw(st.lists(st.sampled_from(free), min_size=1, max_size=3, unique=True))
     robots = draw(st.lists(st.sampled_from(free), max_size=most_robots, unique=True))
+    clock = draw(st.sampled_from(CLOCKS))
     return Scenario(
         area,
         np.array(destinations),
         np.array(robots, dtype=np.int64),
-        waiting_cost=draw(st.integers(0, 2000)),
+        waiting_cost=draw(st.integers(0, 2000)) if clock == "steps" else None,
         crossing=draw(st.sampled_from(CROSSINGS)),
         corners=draw(st.sampled_from(CORNERS)),
         destination_capacity=draw(st.none() | st.integers(1, 5)),
         seed=draw(st.none() | st.integers(0, 2**30)),
+        clock=clock,
+        following=draw(st.sampled_from(FOLLOWINGS)),
     )
 
 

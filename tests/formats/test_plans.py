@@ -96,11 +96,12 @@ def slow_rows(plan: Plan):
     scenario, area = plan.scenario, plan.scenario.area
     for robot, cell in enumerate(scenario.robots.tolist()):
         y, x = divmod(cell, area.width)
-        time = 0
+        time = step = 0
         yield [str(v) for v in (robot, 0, x, y, "start", 0)]
-        for step, action in enumerate(plan.actions[slice(*plan.first_action[robot : robot + 2])].tolist(), 1):
+        for action in plan.actions[slice(*plan.first_action[robot : robot + 2])].tolist():
             name = "wait"
             time += scenario.waiting_cost
+            step += 1
             if action != WAIT:
                 side = int(area.tessellation.orientation_of_cell(x, y))
                 dx, dy = area.tessellation.step_of_direction[side, action].tolist()
@@ -110,6 +111,7 @@ def slow_rows(plan: Plan):
                     y + dy,
                     time - scenario.waiting_cost + int(area.tessellation.cost_of_direction[action]),
                 )
+                step = time if scenario.clock == "costs" else step
             yield [str(v) for v in (robot, step, x, y, name, time)]
 
 
@@ -137,6 +139,52 @@ def test_a_move_that_is_none_becomes_a_jump(tmp_path):
     assert read_plan(again, scenario) == plan
     write_plan(plan, tmp_path / "again.npz")
     assert read_plan(tmp_path / "again.npz") == plan
+
+
+def test_jumps_and_names_of_the_other_orientation_in_ticks(tmp_path):
+    """What no robot can do lasts as long as its word says in the file, and a tick in the plan."""
+    path = tmp_path / "p.csv"
+    scenario = Scenario(Area("triangular", np.zeros((4, 8))), [(7, 3)], clock="costs")
+    rows = ["0,0,0,0,start,0", "0,7,7,0,EE,7", "0,8,6,0,jump,7", "0,15,6,2,NNE,7", "0,20,7,2,E,12", "0,21,7,2,wait,13"]
+    path.write_text("\n".join([HEADER, *rows]))
+    plan = read_plan(path, scenario)
+    assert plan.actions.tolist() == [JUMP, JUMP, JUMP, 0, WAIT]
+    assert plan.last_step_of_robot.tolist() == [1 + 1 + 1 + 5 + 1]
+    again = tmp_path / "again.csv"
+    write_plan(plan, again)
+    assert [row.split(",")[1] for row in again.read_text().splitlines()[1:]] == ["0", "1", "2", "3", "8", "9"]
+    assert read_plan(again, scenario) == plan
+
+
+STEPS_AND_TICKS = [
+    ("costs", ["0,1,1,0,E,5"], "line 3: step must rise by 5, as long as the action lasts, not by 1; .* another clock"),
+    ("costs", ["0,5,1,0,E,5", "0,10,1,0,wait,6"], "line 4: step must rise by 1, as long as .*, not by 5"),
+    ("costs", ["0,5,1,0,E,10"], "line 3: time must rise by 5 for 'E', not by 10"),
+    ("steps", ["0,5,1,0,E,5"], "line 3: robot 0 lacks step 1; here is step 5, as by clock costs"),
+]
+
+
+@pytest.mark.parametrize(("clock", "rows", "message"), STEPS_AND_TICKS)
+def test_a_plan_by_another_clock_is_told(tmp_path, clock, rows, message):
+    path = tmp_path / "p.csv"
+    path.write_text("\n".join([HEADER, "0,0,0,0,start,0", *rows]))
+    with pytest.raises(FormatError, match=message):
+        read_plan(path, Scenario(Area("square", np.zeros((2, 3))), [(2, 0)], clock=clock))
+
+
+@pytest.mark.parametrize(("clock", "following"), [("steps", "allow"), ("costs", "forbid"), ("steps", "forbid")])
+def test_files_hold_the_rules_that_came_later_only_where_they_are_not_usual(tmp_path, clock, following):
+    area = Area("square", np.zeros((2, 3)), "s")
+    plan = plan_from_lists(Scenario(area, [(2, 0)], [(0, 0)], clock=clock, following=following), [[1, WAIT, 1]])
+    write_plan(plan, tmp_path / "p.npz")
+    write_scenario(plan.scenario, tmp_path / "s.toml")
+    with np.load(tmp_path / "p.npz") as file:
+        assert ("clock" in file.files, "following" in file.files) == (clock == "costs", following == "forbid")
+    text = (tmp_path / "s.toml").read_text()
+    assert ("clock =" in text, "following =" in text) == (clock == "costs", following == "forbid")
+    assert read_plan(tmp_path / "p.npz") == plan
+    assert read_scenario(tmp_path / "s.toml") == plan.scenario
+    assert read_plan(tmp_path / "p.npz").steps == (11 if clock == "costs" else 3)
 
 
 BAD_CSV = {

@@ -156,8 +156,8 @@ def test_a_map_needs_a_cell_size_and_its_image(tmp_path):
     path = write_map(tmp_path, np.full((4, 4), 254))
     with pytest.raises(FormatError, match=r"metres\) is measured in metres: say how far apart"):
         read_area(path)
-    with pytest.raises(AreaError, match=r"cell_size must be at least 0\.6 metres"):
-        read_area(path, "hexagonal", cell_size=0.5, robot_radius=0.15)
+    with pytest.raises(AreaError, match=r"cell_size must be at least 0\.6 metres \(0\.3465 where following"):
+        read_area(path, "hexagonal", cell_size=0.3, robot_radius=0.15)
     (tmp_path / "map.pgm").unlink()
     with pytest.raises(FileNotFoundError, match=r"map\.pgm"):
         read_area(path, cell_size=1.0)

@@ -32,21 +32,28 @@ def framed(plan, frame):
 
 
 def places_by_hand(plan):
-    """Return the places (step, x, y) of each robot, walked cell by cell."""
+    """Return the places (step, x, y) of each robot, walked cell by cell; in ticks with the last of waits alone."""
+    is_in_ticks = plan.scenario.clock == "costs"
     area, places = plan.scenario.area, []
     frame, tessellation = area.frame, area.tessellation
     for robot, start in enumerate(plan.scenario.robots.tolist()):
         y, x = divmod(start, area.width)
-        cells = [(x, y)]
+        rows, step = [(0, x, y, False)], 0  # and whether it waited
         for action in plan.actions[plan.first_action[robot] : plan.first_action[robot + 1]].tolist():
+            step += 1
             if action != WAIT:
                 dx, dy = tessellation.step_of_direction[int(tessellation.orientation_of_cell(x, y))][action].tolist()
                 x, y = x + dx, y + dy
-            cells.append((x, y))
+                step += TICKS[tessellation.name, tessellation.neighbourhood][action] - 1 if is_in_ticks else 0
+            rows.append((step, x, y, action == WAIT))
         if y * area.width + x not in plan.scenario.destinations:
-            cells += [(x, y)] * (plan.steps + 1 - len(cells))
+            rows += [(later, x, y, True) for later in range(step + 1, plan.steps + 1)]
+        if is_in_ticks:
+            rows = [
+                row for row, after in zip(rows, [*rows[1:], (0, 0, 0, False)], strict=True) if not row[3] * after[3]
+            ]
         own = []
-        for step, (x, y) in enumerate(cells):
+        for step, x, y, _ in rows:
             px, py = (frame.cell_size * float(number) for number in tessellation.centre_of_cell(x, y))
             turned = px * cos(frame.yaw) + py * sin(frame.yaw), px * sin(frame.yaw) - py * cos(frame.yaw)
             own.append((step, frame.origin[0] + turned[0], frame.origin[1] + turned[1]))
@@ -54,8 +61,21 @@ def places_by_hand(plan):
     return places
 
 
+# In metres, of each direction.
+TICKS = {
+    ("triangular", "full"): [4] * 3 + [7] * 6 + [8] * 3,
+    ("square", "full"): [7] * 4 + [10] * 4,
+    ("triangular", "edge"): [1] * 3,
+    ("square", "edge"): [1] * 4,
+    **{("hexagonal", kind): [1] * 6 for kind in ("full", "edge")},
+}
+
+
 def seconds_per_step(plan, speed):
     tessellation = plan.scenario.area.tessellation
+    if plan.scenario.clock == "costs" and tessellation.neighbourhood == "full":
+        edge = {"hexagonal": 1, "square": 7, "triangular": 4}[tessellation.name]
+        return plan.scenario.area.frame.cell_size / edge / speed
     longest = {"hexagonal": 1.0, "square": sqrt(2), "triangular": 2.0}[tessellation.name]
     return (longest if tessellation.neighbourhood == "full" else 1.0) * plan.scenario.area.frame.cell_size / speed
 
@@ -208,6 +228,11 @@ def test_mapf_text_has_a_line_for_each_step_on_squares_only(folder, plan):
         with pytest.raises(FormatError, match="mapf-visualizer draws squares only"):
             write_plan(plan, path)
         return
+    if not plan.has_steps:
+        with pytest.raises(FormatError, match=r"w\.txt: .* moves that last one step; here clock is 'costs'"):
+            write_plan(plan, path)
+        return
+    plan = replace(plan, scenario=replace(plan.scenario, clock="steps", waiting_cost=None))
     write_plan(plan, path)
     unframed = framed(plan, Frame(1.0))
     lines = path.read_text().splitlines()
@@ -217,6 +242,33 @@ def test_mapf_text_has_a_line_for_each_step_on_squares_only(folder, plan):
         cells = [tuple(map(int, pair)) for pair in re.findall(r"\((\d+),(\d+)\),", places)]
         own = [places_of[min(step, len(places_of) - 1)][1:] for places_of in places_by_hand(unframed)]
         assert int(number) == step and cells == [(round(x - 0.5), round(-y - 0.5)) for x, y in own]
+
+
+def test_by_the_clock_of_costs_no_robot_is_faster_than_said_and_frames_lie_between_centres(tmp_path):
+    import pedpy
+
+    area = Area("square", np.zeros((3, 4)), frame=Frame(0.5))
+    scenario = Scenario(area, [(3, 0)], [(0, 0), (2, 2)], clock="costs")
+    plan = plan_from_lists(scenario, [[1, WAIT, WAIT, 1, 1], [WAIT, 4, 0]])  # E, E, E and NE, N
+    write_waypoints(plan, tmp_path / "w.csv", speed=2.0)
+    rows = [
+        [float(row[key]) for key in "rtxy" if key != "r"]
+        for row in csv.DictReader((tmp_path / "w.csv").read_text().splitlines())
+        if row["robot"] == "0"
+    ]
+    tick = 0.5 / 7 / 2.0  # an edge is the farthest that a robot goes in 7 ticks; a vertex move goes 0.99 as far in 10
+    places = [(0, 0.25), (7, 0.75), (9, 0.75), (16, 1.25), (23, 1.75)]
+    assert np.allclose(rows, [[number * tick, x, -0.25] for number, x in places], atol=1e-6)
+    write_waypoints(plan, tmp_path / "t.sqlite", speed=2.0)
+    trajectories = pedpy.load_trajectory_from_jupedsim_sqlite(trajectory_file=tmp_path / "t.sqlite")
+    assert trajectories.frame_rate == pytest.approx(1 / tick)
+    own = trajectories.data[trajectories.data.id == 1].sort_values("frame")
+    assert own.frame.tolist() == list(range(19))
+    expected = [(1.25, -1.25)] + [(1.25 + 0.05 * n, -1.25 + 0.05 * n) for n in range(11)]
+    expected += [(1.75, -0.75 + 0.5 * n / 7) for n in range(1, 8)]
+    assert np.allclose(own[["x", "y"]], expected)
+    speed = pedpy.compute_individual_speed(traj_data=trajectories, frame_step=1)
+    assert 1.9 < speed.speed.max() <= 2.0 + 1e-9
 
 
 @pytest.mark.parametrize(("speed", "shown"), [(0, "0"), (-1.0, "-1.0"), (float("nan"), "nan"), (float("inf"), "inf")])

@@ -47,7 +47,7 @@ def test_every_kernel_has_a_stamp():
 def imported_by(path, found):
     """Gather what a file imports of kernels, and what that imports, as the parser of Python sees it."""
     found.add(path)
-    for node in ast.parse(path.read_text()).body:
+    for node in ast.walk(ast.parse(path.read_text())):
         if isinstance(node, ast.ImportFrom) and "kernels" in (node.module or ""):
             base = SRC.joinpath(*node.module.split(".")[1:])
             for file in (base.with_suffix(".py"), *(base / f"{alias.name}.py" for alias in node.names)):
@@ -61,3 +61,5 @@ def test_sources_are_all_that_is_imported():
     for path in files:
         assert set(sources_of(path)) == imported_by(path, set()), path
     assert max(len(sources_of(path)) for path in files) > 8
+    greedy = next(path for path in files if path.name == "greedy.py")
+    assert "compiling.py" in {path.name for path in sources_of(greedy)}  # imported inside a function

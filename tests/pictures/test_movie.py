@@ -101,6 +101,24 @@ def test_short_plans_glide_and_long_ones_skip(tmp_path):
     ]
 
 
+@pytest.mark.parametrize(("max_frames", "ticks"), [(60, [tick / 2 for tick in range(55)]), (8, [*range(0, 27, 4), 27])])
+def test_robots_are_between_centres_while_a_move_lasts(tmp_path, max_frames, ticks):
+    """Robot 0 moves from tick 0 to 5 and 5 to 10, robot 1 waits till 2 and moves from 2 to 7, 7 to 12 and on."""
+    area = Area("square", np.zeros((1, 9)), "corridor")
+    scenario = Scenario(area, [(0, 0)], [(2, 0), (5, 0)], clock="costs")
+    plan = plan_from_lists(scenario, [[3, 3], [WAIT, WAIT, 3, 3, 3, 3, 3]])
+    write_animation(plan, tmp_path / "a.gif", width=360, max_frames=max_frames, **BARE)
+    frames = frames_of(tmp_path / "a.gif")
+    assert len(frames) == len(ticks)
+    for tick, frame in zip(ticks, frames, strict=True):
+        blue = np.flatnonzero((frame[8] == palette.MOVING).all(axis=1))
+        for start, begin, end in ((2, 0, 10), (5, 2, 27)):
+            if begin <= tick < end:
+                assert np.abs(blue - 40 * (start - (tick - begin) / 5) - 19.5).min() < 1.5, (tick, start)
+    waits = (frames[0][8] == palette.WAITING).all(axis=1)
+    assert abs(np.flatnonzero(waits).mean() - (5.5 * 40 - 0.5)) < 1.5
+
+
 @pytest.mark.parametrize("name", TESSELLATIONS)
 def test_robots_stand_where_the_plan_says(tmp_path, name):
     plan = wandering_plan(name)

@@ -6,7 +6,7 @@ from hypothesis import given
 from tests.formats.strategies import walks
 from trihex import Area, Plan, Scenario
 from trihex.kernels.codes import JUMP, WAIT
-from trihex.plans import cells_of_rows, follow, visits_of
+from trihex.plans import Walk, cells_of_rows, steps_of_actions, visits_of, waits_by_step
 
 
 def ways(plan):
@@ -29,7 +29,7 @@ def ways(plan):
 
 
 def check(plan):
-    area, layout = plan.scenario.area, plan.scenario.area.layout
+    area = plan.scenario.area
     own = list(ways(plan))
     visits = np.zeros(area.cell_count, dtype=int)
     for cells, actions in own:
@@ -39,12 +39,43 @@ def check(plan):
     first_row = np.cumsum([0, *(len(cells) for cells, _ in own)])
     np.testing.assert_array_equal(cells_of_rows(plan, first_row), [cell for cells, _ in own for cell in cells])
 
-    site, half = layout.cell_to_site(plan.scenario.robots), plan.steps // 2
-    for step, next_step in ((0, half), (half, plan.steps)):
-        if next_step > step:
-            follow(plan, step, next_step, site)
-        expected = [cells[min(next_step, len(cells) - 1)] for cells, _ in own]
-        np.testing.assert_array_equal(layout.site_to_cell(site), expected)
+    check_walk(plan, own)
+
+
+def check_walk(plan, own):
+    """Go to some steps, and compare with each robot's list of (cell, action, when it ends)."""
+    area = plan.scenario.area
+    ends = [ends_of(plan, actions) for _, actions in own]
+    walk = Walk(plan)
+    for step in sorted({0, plan.steps // 3, plan.steps // 2, plan.steps}):
+        walk.go_to(step)
+        done = [sum(end <= step for end in ends_of_robot) - 1 for ends_of_robot in ends]
+        at = [cells[i] for (cells, _), i in zip(own, done, strict=True)]
+        np.testing.assert_array_equal(area.layout.site_to_cell(walk.site), at)
+        under_way = [actions[i] if i < len(actions) else WAIT for (_, actions), i in zip(own, done, strict=True)]
+        np.testing.assert_array_equal(walk.action_of_robot, under_way)
+        later = [cells[min(i + 1, len(cells) - 1)] for (cells, _), i in zip(own, done, strict=True)]
+        np.testing.assert_array_equal(area.layout.site_to_cell(walk.next_site()), later)
+        for robot, (i, action) in enumerate(zip(done, under_way, strict=True)):
+            if i < len(own[robot][1]):
+                share = (step + 0.5 - ends[robot][i]) / (ends[robot][i + 1] - ends[robot][i])
+                assert np.broadcast_to(walk.done(0.5), len(own))[robot] == share
+            assert (robot in walk.sets().filled) == (action != WAIT)
+    for robot, expected in enumerate(ends):
+        assert plan.ticks_of_robot(robot).tolist() == expected
+    assert steps_of_actions(plan).tolist() == [end for one in ends for end in one[1:]]
+    waits = np.zeros(plan.steps + 1, dtype=int)
+    for (_, actions), one in zip(own, ends, strict=True):
+        np.add.at(waits, [end for action, end in zip(actions, one[1:], strict=True) if action == WAIT], 1)
+    np.testing.assert_array_equal(waits_by_step(plan), waits)
+
+
+def ends_of(plan, actions):
+    """Return when a robot is in each of its cells: a move lasts as its direction does, all else one step."""
+    ends = [0]
+    for action in actions:
+        ends.append(ends[-1] + (1 if action >= JUMP else int(plan.scenario.duration_of_direction[action])))
+    return ends
 
 
 @given(walks())

@@ -120,7 +120,7 @@ def test_one_robot_is_followed_with_its_moves_waits_and_time(open_viewer):
     assert told["moves d"] == [str(plan.distance_of_robot[5])] * 2
     assert told["waits w"] == [str(plan.waiting_of_robot[5])] * 2
     assert told["time t = d + w"] == [str(plan.time_of_robot[5])] * 2
-    assert f"robot 5 at (5, 0), arrived at step {plan.arrival_step_of_robot[5]}" in shown.text(".robot")
+    assert f"robot f (number 5) at (5, 0), arrived at step {plan.arrival_step_of_robot[5]}" in shown.text(".robot")
     shown.press("None")
     assert "Click a robot" in shown.text(".robot")
 

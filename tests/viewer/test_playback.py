@@ -1,16 +1,18 @@
 """The curves of a plan, against robots that are followed one by one; and the page that plays it, against the plan."""
 
 import base64
+from dataclasses import replace
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 
 import trihex as th
 from tests.strategies import random_scenario, scenarios
 from trihex.kernels.codes import JUMP, WAIT
-from trihex.pictures.ways import bends_of
+from trihex.pictures.ways import bends_of, places_between
 from trihex.planners import make_plan
-from trihex.plans import Plan, make_playback, plan_from_lists
+from trihex.plans import Plan, Walk, make_playback, plan_from_lists
 from trihex.viewer.bundle import encode
 from trihex.viewer.desk import Desk
 
@@ -62,6 +64,29 @@ def test_curves_are_those_of_robots_followed_one_by_one(scenario):
     assert (np.diff(playback.least_total) >= 0).all()
 
 
+@pytest.mark.parametrize("seed", range(40))
+def test_curves_in_ticks_are_those_of_robots_followed_one_by_one(seed):
+    plan = wandering_plan(seed)
+    scenario, n_scheme = plan.scenario, th.make_n_scheme(plan.scenario)
+    playback = make_playback(plan, n_scheme)
+    curves = np.zeros((5, plan.steps + 1), dtype=int)
+    for robot in range(scenario.robot_count):
+        cells, ticks = plan.cells_of_robot(robot).tolist(), plan.ticks_of_robot(robot).tolist()
+        first = plan.first_action[robot]
+        for tick in range(plan.steps + 1):
+            on_way = next((i for i in range(len(ticks) - 1) if ticks[i] < tick <= ticks[i + 1]), None)
+            if on_way is not None:
+                curves[int(plan.actions[first + on_way] == WAIT), tick] += 1
+            if plan.arrived[robot]:
+                done = on_way + 1 if on_way is not None else 0 if tick == 0 else len(cells) - 1
+                spent = min(tick, ticks[-1])
+                # Whoever has begun a move must end it, and goes on from there.
+                ahead = ticks[done] - spent + int(n_scheme.distance_of_cell(cells[done]))
+                curves[2:, tick] += (tick >= ticks[-1], spent, spent + ahead)
+    for name, curve in zip(("moving", "waiting", "arrived", "spent", "least_total"), curves, strict=True):
+        assert getattr(playback, name).tolist() == curve.tolist(), name
+
+
 def test_a_jump_costs_nothing():
     scenario = th.Scenario(th.Area("square", [[0, 0, 0, 0]]), [(3, 0)], [(0, 0)])
     jumping = Plan(scenario, [JUMP, 1], [0, 2], jumps=[[0, 2]])
@@ -99,6 +124,57 @@ def test_the_page_shows_robots_where_the_plan_has_them(open_viewer):
                 np.testing.assert_array_equal(np.flatnonzero(np.isin(state, [WAITING, STRANDED])), sets.waiting)
                 is_last = plan.arrived & (np.diff(plan.first_action) == step + 1)
                 np.testing.assert_array_equal(np.array(state) == FINAL, is_last)
+    assert bent > 20
+    assert shown.faults == []
+
+
+def wandering_plan(seed):
+    """Robots that wander, some into the destination, by clock costs; they may collide."""
+    rng = np.random.default_rng(seed)
+    scenario = replace(random_scenario(seed, sides=(4, 8)), clock="costs", waiting_cost=None, corners="allow")
+    area, lists = scenario.area, []
+    for cell in scenario.robots.tolist():
+        own: list[int] = []
+        for _ in range(0 if cell in scenario.destinations else 6):
+            x, y = cell % area.width, cell // area.width
+            steps = area.tessellation.step_of_direction[int(area.tessellation.orientation_of_cell(x, y))]
+            k = int(rng.integers(len(steps) + 1))
+            to_x, to_y = (x, y) if k == len(steps) else np.add((x, y), steps[k]).tolist()
+            is_inside = 0 <= to_x < area.width and 0 <= to_y < area.height and k < len(steps)
+            is_open = is_inside and not area.barriers[to_y, to_x]
+            own.append(k if is_open else WAIT)
+            cell = to_y * area.width + to_x if is_open else cell
+            if cell in scenario.destinations:
+                break
+        lists.append(own)
+    return plan_from_lists(scenario, lists)
+
+
+def test_the_page_shows_robots_between_centres_while_moves_last(open_viewer):
+    shown = open_viewer(th.Scenario(th.Area("square", np.zeros((2, 2))), [(0, 0)]))
+    rng, bent = np.random.default_rng(5), 0
+    plans = [wandering_plan(seed) for seed in range(30)]
+    for plan in [plan for plan in plans if plan.scenario.robot_count and not plan.has_steps]:
+        area, walks = plan.scenario.area, {}
+        walk = Walk(plan)
+        for step in range(plan.steps + 1):
+            walk.go_to(step)
+            cells = (area.layout.site_to_cell(site) for site in (walk.site, walk.next_site()))
+            here, there = (own.copy() for own in cells)
+            places = [np.array(places_between(area, here, there, walk.done(share))) for share in (0.0, 0.5, 1.0)]
+            walks[step] = places, walk.sets()
+        # To and fro, past the steps that the page keeps.
+        steps = [*range(plan.steps + 1), *rng.integers(0, plan.steps + 1, 12).tolist()]
+        text = base64.b64encode(encode(*Desk().show(plan))).decode()
+        for step, (x0, y0, x1, y1, state, bx, by) in zip(steps, shown.page.evaluate(PLAY, [text, steps]), strict=True):
+            (begin, middle, end), sets = walks[step]
+            acts = plan.last_step_of_robot > step
+            np.testing.assert_allclose(np.array([x0, y0]), begin, atol=1e-4)
+            np.testing.assert_allclose(np.array([x1, y1])[:, acts], end[:, acts], atol=1e-4)
+            np.testing.assert_allclose(np.array([bx, by])[:, acts], (middle - (begin + end) / 2)[:, acts], atol=1e-4)
+            bent += np.count_nonzero(np.hypot(bx, by) > 1e-4)
+            np.testing.assert_array_equal(np.flatnonzero(np.isin(state, [MOVING, FINAL])), sets.filled)
+            np.testing.assert_array_equal(np.flatnonzero(np.array(state) == HIDDEN), sets.final)
     assert bent > 20
     assert shown.faults == []
 

@@ -151,7 +151,7 @@ def test_the_story(open_viewer, tmp_path, tessellation):
     shown.wait("!app.clock.isPlaying")
     assert shown.text(".status") == "The last robot has arrived."
     assert f"{report.arrived_count} arrived" in shown.text(".sets")
-    assert f"{grouped(plan.total_time)} spent, {grouped(plan.total_time)} at least in the end" in shown.text(".sofar")
+    assert shown.text(".sofar") == f"All {grouped(plan.total_time)} time units are used."
 
     # compare with the optimum
     page.get_by_label("Planner beside it").select_option("optimal")

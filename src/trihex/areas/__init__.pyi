@@ -14,6 +14,7 @@ from .claim import (
 from .clearance import (
     least_cell_size as least_cell_size,
     least_distance as least_distance,
+    usual_following as usual_following,
 )
 from .coverage import (
     cover as cover,
@@ -22,6 +23,7 @@ from .coverage import (
 )
 from .entries import (
     entries_per_step as entries_per_step,
+    ways_into_destinations as ways_into_destinations,
 )
 from .fit import (
     Fit as Fit,

@@ -1,14 +1,19 @@
-"""Entries: how many robots can enter destinations in a step."""
+"""Entries: the ways into destinations, and how many robots can take them in a step."""
 
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from trihex.areas.scenario import Scenario
 
 
-def entries_per_step(scenario: Scenario) -> int:
-    """Return how many robots can at most enter all destinations together in one step."""
+def ways_into_destinations(scenario: Scenario) -> NDArray[np.int64]:
+    """Return the names of the ways into each destination, each once, shape (destinations, directions); -1: none.
+
+    A way is the neighbour that it comes from, by its site, or the vertex that it shares with others where crossing is
+    forbidden, by its number + `layout.size`.
+    """
     layout, tessellation = scenario.area.layout, scenario.area.tessellation
     sites = layout.cell_to_site(scenario.destinations)
     is_destination = np.zeros(layout.size, dtype=bool)
@@ -17,7 +22,6 @@ def entries_per_step(scenario: Scenario) -> int:
     parity = (sites & 1)[:, None]
     neighbour = sites[:, None] + layout.offset_of_direction[parity, k]
     is_way_in = (scenario.moves[sites][:, None] >> k & 1).astype(bool) & ~is_destination[neighbour]
-    # Each way in has a name: the neighbour it comes from, or the vertex it shares with others (numbered apart).
     name = neighbour.astype(np.int64)
     if scenario.forbids_crossing:
         vertex = sites[:, None] + layout.vertex_of_direction[parity, k]
@@ -25,7 +29,13 @@ def entries_per_step(scenario: Scenario) -> int:
     name = np.where(is_way_in, name, -1)
     name.sort(axis=1)
     is_new = (name >= 0) & np.diff(name, axis=1, prepend=-1).astype(bool)
-    ways_of_destination = is_new.sum(axis=1)
+    return np.where(is_new, name, -1)
+
+
+def entries_per_step(scenario: Scenario) -> int:
+    """Return how many robots can at most enter all destinations together in one step."""
+    name = ways_into_destinations(scenario)
+    ways_of_destination = (name >= 0).sum(axis=1)
     if scenario.destination_capacity is not None:
         ways_of_destination = np.minimum(ways_of_destination, scenario.destination_capacity)
     return int(min(ways_of_destination.sum(), np.unique(name[name >= 0]).size))

@@ -169,6 +169,11 @@ class Scenario(Record):
         return self.following == "allow" and bool((self.duration_of_direction == 1).all())
 
     @property
+    def step_word(self) -> str:
+        """What a step of time is called: "step", or "tick" where the clock is "costs"."""
+        return "step" if self.clock == "steps" else "tick"
+
+    @property
     def headway(self) -> int:
         """How many ticks must pass at least between two robots that go through one cell."""
         return int(self.duration_of_direction.min()) * (2 if self.following == "forbid" else 1)

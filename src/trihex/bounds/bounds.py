@@ -3,9 +3,10 @@
 All bounds are sums of t_r over the robots that can arrive. What they forget, and how good they are, is told in
 docs/bounds.md.
 
-A bound on *steps* becomes one on costs so: let m be the least that a step can cost, min(w_t, cheapest move), and
-0 <= u <= m. Charge u for each step; what is left of a move is its cost less u, and of a wait w_t less u, neither
-negative. So t_r >= u * (steps of r) + (least sum of what is left on a way of r), for every u alike.
+Where the clock is "costs" t_r is the tick of arrival; all bounds are bounds on arrivals then. Else a bound on *steps*
+becomes one on costs so: let m be the least that a step can cost, min(w_t, cheapest move), and 0 <= u <= m. Charge u for
+each step; what is left of a move is its cost less u, and of a wait w_t less u, neither negative. So t_r >= u * (steps
+of r) + (least sum of what is left on a way of r), for every u alike.
 """
 
 from __future__ import annotations
@@ -16,11 +17,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Scenario, entries_per_step
+from trihex.areas import Scenario
 from trihex.bounds.cuts import Cut, find_cuts
 from trihex.bounds.demand import Demand, make_demand
-from trihex.bounds.gates import make_gate_network
+from trihex.bounds.gates import GateNetwork, make_gate_network
 from trihex.bounds.meetings import find_meeting_nodes
+from trihex.bounds.rhythm import entry_headways, queue_up
 from trihex.bounds.serving import least_arrivals
 from trihex.errors import PlanError, check_type, check_whole
 from trihex.fields import NScheme
@@ -35,6 +37,7 @@ _MOST_VISITS = 30_000_000
 _VISITS_PER_ROBOT = 3000  # few robots on a large area: 14 gates in place of 33 leave the bound within 0.001 %
 _MOST_SLOTS = 5_000_000
 _MOST_LOOKS = 50_000_000
+_MOST_SHIFTS = 5  # of the windows of gates, where they are longer than a step
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,15 +86,13 @@ def slot_bound(n_scheme: NScheme) -> LowerBound:
     """In each step only so many robots can enter the destinations, and none before its number of steps allows.
 
     The number is that of the moves that lead in: one for each neighbour, or for each lattice vertex where crossing is
-    forbidden, at most the destination's capacity.
+    forbidden, at most the destination's capacity. Where moves last or nobody may follow at once, so many in a headway.
     """
-    from trihex.bounds.kernels import steps as kernels
-
     check_type("n_scheme", n_scheme, NScheme)
-
-    scenario = n_scheme.scenario
-    slots = np.sort(make_demand(scenario).steps)
-    return LowerBound("slot", _least_cost(n_scheme, int(kernels.queue_up(slots, entries_per_step(scenario)))))
+    demand = make_demand(n_scheme)
+    slots = np.sort(demand.steps)
+    queue_up(slots, entry_headways(demand.nodes))
+    return LowerBound("slot", _least_cost(n_scheme, int(slots.sum())))
 
 
 def cut_bound(
@@ -109,16 +110,14 @@ def cut_bound(
     """
     check_whole("most_gates", most_gates, 0, None, PlanError)
     check_type("n_scheme", n_scheme, NScheme)
-    return LowerBound(
-        "cut", _least_cost(n_scheme, _steps_past_gates(make_demand(n_scheme.scenario), most_gates, progress))
-    )
+    return LowerBound("cut", _least_cost(n_scheme, _steps_past_gates(make_demand(n_scheme), most_gates, progress)))
 
 
 def _steps_past_gates(demand: Demand, most_gates: int, progress: Callable[[int, int], None] | None) -> int:
-    """Return how many steps all robots need at least in all."""
-    free_cells, entries = demand.scenario.area.free_count, entries_per_step(demand.scenario)
+    """Return how many steps (ticks) all robots need at least in all."""
+    free_cells, entries = demand.scenario.area.free_count, entry_headways(demand.nodes)
     cuts = []
-    if entries * demand.nodes.count <= _MOST_SENT:
+    if entries.size * demand.nodes.count <= _MOST_SENT:
         cuts = find_cuts(demand, most_searches=_MOST_VISITS // (4 * free_cells) + 1)
     queued = _steps_past_cuts(demand, cuts, entries)
     visits = min(_MOST_VISITS, _VISITS_PER_ROBOT * demand.sites.size)
@@ -127,30 +126,55 @@ def _steps_past_gates(demand: Demand, most_gates: int, progress: Callable[[int, 
     horizon = min(horizon, _MOST_SLOTS // max(gates.size, 1))
     if gates.size == 0 or horizon == 0:
         return int(queued.sum())
-    total, served, last = least_arrivals(demand, make_gate_network(demand, gates), horizon, _MOST_LOOKS, progress)
-    # Whoever is not served by the last step looked at arrives later, no more in a step than can enter.
-    left = np.arange(demand.sites.size - served)
-    total += int((last + 1 + left // entries).sum())
-    return max(total, int(queued.sum()))
+    network = make_gate_network(demand, gates)
+    if demand.scenario.is_stepwise:
+        passed = _arrivals_past_gates(demand, network, entries, horizon, _MOST_LOOKS, progress)
+        return max(int(passed.sum()), int(queued.sum()))
+    # At best the i-th arrival is no sooner than any of these say, and no sooner than nobody in the way would allow.
+    arrivals = np.maximum(queued, np.sort(demand.steps))
+    longest = int(network.gap.max())
+    shifts = range(0, longest, -(-longest // _MOST_SHIFTS))
+    for shift in shifts:
+        looks = _MOST_LOOKS // len(shifts)
+        passed = _arrivals_past_gates(demand, network, entries, horizon, looks, progress, shift)
+        np.maximum(arrivals, passed, out=arrivals)
+    return int(arrivals.sum())
 
 
-def _steps_past_cuts(demand: Demand, cuts: list[Cut], entries: int) -> NDArray[np.int64]:
-    """Return a least number of steps of each robot in some order, if of those behind a cut only `width` pass it a step.
+def _arrivals_past_gates(
+    demand: Demand,
+    network: GateNetwork,
+    entries: NDArray[np.int64],
+    horizon: int,
+    most_looks: int,
+    progress: Callable[[int, int], None] | None,
+    shift: int = 0,
+) -> NDArray[np.int64]:
+    """Return when the robots arrive at best, ascending, if they hinder each other at gates only."""
+    served, last = least_arrivals(demand, network, horizon, most_looks, progress, shift)
+    # Whoever is not served by the last tick looked at arrives later, no more at a time than can enter. But where moves
+    # through one way in last longer or shorter, arrivals may be as much closer than their headway.
+    duration = demand.scenario.duration_of_direction
+    left = np.full(demand.sites.size - served.size, last + 1 - int(duration.max() - duration.min()))
+    queue_up(left, entries)
+    return np.concatenate([served, np.maximum(left, last + 1)])
+
+
+def _steps_past_cuts(demand: Demand, cuts: list[Cut], entries: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return a least number of steps of each robot in some order, if those behind a cut have to pass it one by one.
 
     Where a robot passes the cut it is known how soon it can arrive. So the numbers of steps of those behind the first
-    cut are delayed until each occurs at most `width` times, then together with the next ones at the next cut.
+    cut are delayed until they are as far apart as the headways ask for, then together with the next ones at the next.
     """
-    from trihex.bounds.kernels import steps as kernels
-
     queued = demand.steps[:0]
     is_behind = np.zeros(demand.sites.size, dtype=bool)
     for cut in cuts:
         new = cut.behind[~is_behind[cut.behind]]
         is_behind[new] = True
         queued = np.sort(np.concatenate([queued, demand.steps[new]]))
-        kernels.queue_up(queued, cut.width)
+        queue_up(queued, demand.nodes.headways(cut.nodes))
     queued = np.sort(np.concatenate([queued, demand.steps[~is_behind]]))
-    kernels.queue_up(queued, max(entries, 1))
+    queue_up(queued, entries)
     return queued
 
 
@@ -173,8 +197,10 @@ def _at_robots(n_scheme: NScheme, field: NDArray[np.int32]) -> NDArray[np.int64]
 
 
 def _least_cost(n_scheme: NScheme, steps: int) -> int:
-    """Return what robots must pay in all that need `steps` steps in all."""
+    """Return what robots must pay in all that need `steps` steps (ticks) in all."""
     scenario = n_scheme.scenario
+    if scenario.clock == "costs":
+        return steps
     cost = scenario.area.tessellation.cost_of_direction
     return max(share * steps + _rest(n_scheme, cost - np.int32(share)) for share in _shares(scenario))
 

@@ -21,9 +21,9 @@ class Cut(Record):
     Parameters
     ----------
     nodes : int32 array
-        At most one robot passes each in a step; a destination among them has its capacity.
+        At most one robot passes each at a time; a destination among them has its capacity.
     width : int
-        How many robots pass all of them together in a step at most.
+        How many robots pass all of them together at a time at most.
     behind : int64 array
         Which robots of the demand have to pass.
     """

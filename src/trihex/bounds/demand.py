@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from trihex.areas import Scenario
 from trihex.bounds.nodes import Nodes
-from trihex.fields import steps_to_destination
+from trihex.fields import NScheme, steps_to_destination
+from trihex.kernels.codes import NOT_REACHED
 from trihex.record import Record, read_only
 
 
@@ -41,10 +42,14 @@ class Demand(Record):
 
     @cached_property
     def steps(self) -> NDArray[np.int64]:
-        """Least number of steps of each of them, descending."""
+        """Least number of ticks of each of them, descending."""
         return read_only(self.nodes.steps_of_site[self.sites].astype(np.int64))
 
 
-def make_demand(scenario: Scenario) -> Demand:
-    """Count the steps to the nearest destination from every site."""
-    return Demand(Nodes(scenario, steps_to_destination(scenario)))
+def make_demand(n_scheme: NScheme) -> Demand:
+    """Count the ticks to the nearest destination from every site."""
+    scenario = n_scheme.scenario
+    if scenario.clock == "steps":
+        return Demand(Nodes(scenario, steps_to_destination(scenario)))
+    distance = n_scheme.distance_of_site
+    return Demand(Nodes(scenario, read_only(np.where(distance == NOT_REACHED, np.int32(-1), distance))))

@@ -1,4 +1,4 @@
-"""Gates: a few chosen nodes, and how far apart they are."""
+"""Gates: a few chosen nodes, and how far apart they are, in ticks (steps where the clock is "steps")."""
 
 from __future__ import annotations
 
@@ -20,8 +20,10 @@ class GateNetwork(Record):
 
     Parameters
     ----------
+    gap : int32 array, shape (gates,)
+        How many ticks there are at least between two robots that pass a gate.
     steps_out : int32 array, shape (gates,)
-        Least number of steps from being in a gate to arriving; -1 where each way out passes another gate.
+        Least number of ticks from being in a gate to arriving; -1 where each way out passes another gate.
     first_arc, arc_gate, arc_steps : arrays
         Gate g is entered from gate ``arc_gate[a]`` no sooner than ``arc_steps[a]`` steps later, for a in
         ``first_arc[g]:first_arc[g + 1]``.
@@ -30,9 +32,10 @@ class GateNetwork(Record):
     robot_count : int
         Number of robots in the lists.
     free_steps : int64 array
-        Least number of steps of each robot that passes no gate.
+        Least number of ticks of each robot that passes no gate.
     """
 
+    gap: NDArray[np.int32]
     steps_out: NDArray[np.int32]
     first_arc: NDArray[np.int64]
     arc_gate: NDArray[np.int32]
@@ -56,6 +59,7 @@ class _Survey:
         from trihex.bounds.kernels.gates import Landmarks, Surroundings
         from trihex.kernels.signatures import given
 
+        lines = np.unique(demand.scenario.duration_of_direction).size
         self.demand, self.nodes = demand, nodes
         size, count = demand.scenario.area.layout.size, demand.nodes.count
         # Only a destination passes more than one robot: it stands in the list once for each of them.
@@ -78,7 +82,10 @@ class _Survey:
             robot_steps=robot_steps,
             count=np.zeros(3, dtype=np.int64),
             steps=np.full(count, -1, dtype=np.int32),
-            queue=np.empty(count, dtype=np.int32),
+            queue=np.empty(lines * count, dtype=np.int32),
+            when=np.empty(lines * count, dtype=np.int32),
+            head=np.zeros(lines, dtype=np.int64),
+            tail=np.zeros(lines, dtype=np.int64),
         )
 
     def look(self, gate: int, starts: NDArray[np.int32]) -> tuple[list[NDArray[np.int32]], int]:
@@ -103,16 +110,19 @@ class _Survey:
         first_copy = np.cumsum(self.copies) - self.copies
         for gate, node in enumerate(self.nodes.tolist()):
             is_vertex = node >= size
+            through = demand.nodes.vertex_duration if is_vertex else 0
             starts = demand.nodes.sites_around(node - size) if is_vertex else np.array([node], dtype=np.int32)
             (gates, gate_steps, near, robot_steps), out = self.look(gate, starts)
-            # A vertex is passed in the step that leads into one of the cells around it, one step after the cell before.
+            # A vertex is passed when a robot comes into one of the cells around it, a move after the cell before.
             onto = ~self.is_destination[gates]
-            into = gate_steps[onto] + int(is_vertex) - (self.nodes[gates[onto]] >= size)
+            into = gate_steps[onto] + through
+            into[self.nodes[gates[onto]] >= size] -= demand.nodes.vertex_duration
             for _ in range(self.copies[gate]):
                 arcs.append((first_copy[gates[onto]], into))
-                robots.append((near, robot_steps + int(is_vertex)))
+                robots.append((near, robot_steps + through))
                 steps_out.append(0 if self.is_destination[gate] else out)
         return GateNetwork(
+            demand.nodes.headways(self.nodes).astype(np.int32),
             np.array(steps_out, dtype=np.int32),
             *_chained(arcs),
             *_chained(robots),

@@ -1,7 +1,8 @@
-"""Nodes: places that but one robot may pass in a step.
+"""Nodes: places that but one robot may pass at a time.
 
-A *node* is a site, or ``layout.size + vertex`` for a lattice vertex, where the scenario lets but one robot pass it in a
-step.
+A *node* is a site, or ``layout.size + vertex`` for a lattice vertex, where the scenario lets but one robot pass it at a
+time. A robot is *in* a cell, or in a destination, from when it has reached its centre; it passes a vertex when the move
+through it ends. All times are in ticks; where the clock is "steps" these are steps.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ class Nodes(Record):
     ----------
     scenario : Scenario
     steps_of_site : int32 array, shape (layout.size,)
-        Least number of steps to a destination; -1 where none can be reached.
+        Least number of ticks to a destination; -1 where none can be reached.
     """
 
     scenario: Scenario
@@ -53,13 +54,31 @@ class Nodes(Record):
         sites = vertex + layout.ring_of_vertex
         return np.asarray(sites[(self.scenario.moves[sites] & layout.via_of_ring) > 0])
 
+    @property
+    def vertex_duration(self) -> int:
+        """How long the shortest move lasts that passes a vertex."""
+        return int(self.scenario.duration_of_direction[self.scenario.first_vertex_move :].min(initial=2**30))
+
+    def headways(self, nodes: NDArray[np.integer]) -> NDArray[np.int64]:
+        """Return how many ticks there are at least between two robots that pass one of `nodes`.
+
+        A destination stands for as many nodes as it lets in at a time.
+        """
+        scenario, is_site = self.scenario, nodes < self.scenario.area.layout.size
+        headway = np.where(is_site, scenario.headway, self.vertex_duration).astype(np.int64)
+        is_entry = is_site & self.is_destination[np.where(is_site, nodes, 0)]
+        # From half of the move on a robot fills one of the places, where others may follow, else as long as it moves.
+        headway[is_entry] = (scenario.headway + 1) // 2
+        return np.repeat(headway, np.where(is_entry, max(scenario.entry_limit, 1), 1))
+
     @cached_property
     def graph(self) -> NodeGraph:
         """The same for kernels."""
         from trihex.bounds.kernels.nodes import NodeGraph
         from trihex.kernels.signatures import given
 
-        layout = self.scenario.area.layout
+        layout, duration = self.scenario.area.layout, self.scenario.duration_of_direction
+        durations = np.unique(duration)
         graph: NodeGraph = given(
             NodeGraph,
             steps=self.steps_of_site,
@@ -70,5 +89,9 @@ class Nodes(Record):
             ring=layout.ring_of_vertex,
             via=layout.via_of_ring,
             first_vertex_move=self.scenario.first_vertex_move,
+            duration=duration,
+            line=np.searchsorted(durations, duration).astype(np.int32),
+            vertex_duration=self.vertex_duration,
+            vertex_line=np.searchsorted(durations, self.vertex_duration),
         )
         return graph

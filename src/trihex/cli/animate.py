@@ -23,7 +23,7 @@ from trihex.cli.types import Whole
 @click.option("--frames-per-second", type=Whole(1), default=20, show_default=True, help="At most 50.")
 @click.option("--max-frames", type=Whole(2), default=240, show_default=True, help="A long plan is shown in as many.")
 @click.option("--title", metavar="TEXT", help="Above the picture; '' leaves it out. [default: planner and area]")
-@click.option("--clock/--no-clock", default=True, help="Whether to tell the step and how many have arrived.")
+@click.option("--show-clock/--no-clock", default=True, help="Whether to tell the step and how many have arrived.")
 @click.option("--legend/--no-legend", default=True, help="Whether to explain the colours.")
 @click.option("--beside", type=PATH, metavar="PLAN", help="Pages: another plan, played beside it on the same clock.")
 def command(
@@ -42,17 +42,16 @@ def command(
     from trihex.pictures import MOVIE_SUFFIXES, write_animation
     from trihex.viewer import PAGE_SUFFIXES, write_page
 
-    drawn = {
-        name: options.pop(name) for name in ("width", "frames_per_second", "max_frames", "title", "clock", "legend")
-    }
+    drawn = {name: options.pop(name) for name in ("width", "frames_per_second", "max_frames", "title", "legend")}
+    drawn["clock"] = options.pop("show_clock")
     check_outputs((out, (*MOVIE_SUFFIXES, *PAGE_SUFFIXES), "a movie"))
     if beside is not None and out.suffix.lower() not in PAGE_SUFFIXES:
         raise wrong_use(f"--beside is for pages (.html); {out} shows one plan")
     shown = read_judged(plan, area, options)
     if out.suffix.lower() in PAGE_SUFFIXES:
         write_page(shown, out, beside=None if beside is None else read_judged(beside, area, options))
-        click.echo(f"{out}: {shown.scenario.robot_count} robots, {shown.steps} steps")
+        click.echo(f"{out}: {shown.scenario.robot_count} robots, {shown.steps} {shown.scenario.step_word}s")
         return
     with bar("drawing", "frames") as progress:
         write_animation(shown, out, progress=progress, **drawn)
-    click.echo(f"{out}: {shown.scenario.robot_count} robots, {shown.steps} steps")
+    click.echo(f"{out}: {shown.scenario.robot_count} robots, {shown.steps} {shown.scenario.step_word}s")

@@ -40,7 +40,8 @@ def command(plan: Path, area: Path | None, limit: int, summary: Path | None, **o
         _summarise(judged, audit, summary)
     if str(summary) != "-":
         robots, arrived = judged.scenario.robot_count, int(judged.arrived.sum())
-        click.echo(f"{plan}: {arrived} of {robots} robots arrive in {judged.steps} steps; {verdict(audit)}")
+        time = f"{judged.steps} {judged.scenario.step_word}s"
+        click.echo(f"{plan}: {arrived} of {robots} robots arrive in {time}; {verdict(audit)}")
         counts = (count_corner_moves(judged, rule) for rule in ("no-cut", "no-squeeze"))
         for line in corner_lines(judged, *counts):
             click.echo(line)

@@ -22,7 +22,7 @@ PATH = click.Path(path_type=Path)
 
 
 # What `rule_options` adds, and what `formats.options.AreaOptions` takes besides the tessellation.
-RULES = ("waiting_cost", "crossing", "corners", "destination_capacity", "destination")
+RULES = ("waiting_cost", "crossing", "corners", "destination_capacity", "clock", "following", "destination")
 _PLACE = (
     *("cell_size", "robot_radius", "unknown", "threshold", "invert", "resolution", "align"),
     *("walls", "exits", "rooms", "unit", "wall_thickness"),
@@ -96,6 +96,16 @@ def rule_options(command: Command) -> Command:
             type=Name("trihex.areas.scenario", "CORNERS"),
             help="When a robot may pass a vertex beside barriers. [default: allow]",
         ),
+        click.option(
+            "--following",
+            type=Name("trihex.areas.scenario", "FOLLOWINGS"),
+            help="Whether a robot may enter a cell while another is still leaving it. [default: allow]",
+        ),
+        click.option(
+            "--clock",
+            type=Name("trihex.areas.tessellation", "CLOCKS"),
+            help="Whether moves last a step each, or as long as they cost, in ticks. [default: steps]",
+        ),
         click.option("--waiting-cost", type=Whole(0), help="Cost of waiting one step. [default: that of an edge]"),
         destination_option,
     ):
@@ -150,6 +160,9 @@ def read_described(path: Path, options: dict[str, Any]) -> Draft:
     """Return the draft in the file at `path`, changed by what the options say."""
     from trihex.formats import read_draft
 
+    place = {name: options[name] for name in _PLACE}
+    if place["robot_radius"] and not place["cell_size"]:  # the least cells depend on the rule
+        place["following"] = options.get("following")
     with bar("covering", "rows") as progress:
         draft = read_draft(
             path,
@@ -157,7 +170,7 @@ def read_described(path: Path, options: dict[str, Any]) -> Draft:
             neighbourhood=options["neighbourhood"],
             costs=options["costs"],
             progress=progress,
-            **{name: options[name] for name in _PLACE},
+            **place,
         )
     for note in draft.notes:
         click.echo(f"trihex: {path}: {note}", err=True)
@@ -173,7 +186,7 @@ def _changed(draft: Draft, options: dict[str, Any]) -> Draft:
     from trihex.files import read_bytes
     from trihex.formats import format_of, read_starts
 
-    rules = ("waiting_cost", "crossing", "corners", "destination_capacity")
+    rules = [name for name in RULES if name != "destination"]
     changes: dict[str, Any] = {name: options[name] for name in rules if options.get(name) is not None}
     if options.get("destination"):
         cells = [_cell_of(draft.area, place) for place in options["destination"]]
@@ -220,6 +233,7 @@ def complete(draft: Draft, *uses: str, needs_robots: bool = True) -> Scenario:
 
     from trihex.fields import field_kernels
     from trihex.kernels.preparing import prepare
+    from trihex.planners import uses_of
 
     if draft.destinations is None:
         raise wrong_use("there is no destination: add --destination X,Y")
@@ -228,7 +242,8 @@ def complete(draft: Draft, *uses: str, needs_robots: bool = True) -> Scenario:
     known = draft if draft.random_count is None else replace(draft, random_count=None)
     scenario = known.complete()
     if uses and (draft.random_count or 0) <= draft.area.free_count:  # or they cannot be drawn, which is told at once
-        prepare(*uses, field_kernels(draft.area.tessellation, scenario.corners))
+        needed = [need for use in uses for need in uses_of(use, scenario)]
+        prepare(*needed, field_kernels(draft.area.tessellation, scenario.corners))
     return scenario if known is draft else draft.complete()
 
 

@@ -23,7 +23,7 @@ def report_lines(report: Report) -> list[str]:
         f"{area.name or 'area'}: {area.width} x {area.height} cells, {area.free_count} free; {tessellation.name}, "
         f"{tessellation.neighbourhood} neighbourhood, costs {tessellation.costs}",
         f"{plan.planner or 'plan'}: {report.arrived_count} of {scenario.robot_count} robots arrive, "
-        f"the last in step {report.steps}",
+        f"the last in {scenario.step_word} {report.steps}",
         f"total time {report.total_time} ({report.total_distance} moving, {report.total_waiting} waiting), "
         f"lower bound {report.lower_bound} ({report.lower_bound_name}), gap {gap}",
         *exit_lines(report.arrivals_of_exit, report.arrived_count),

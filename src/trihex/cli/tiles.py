@@ -36,7 +36,10 @@ def make_tiles(area: Path, out: Path | None, tiling: Tiling, options: dict[str, 
     if not all(isinstance(place[0], int) for place in places):
         raise wrong_use(f"--destination must be a cell X,Y: {area} is not measured in metres")
     kind = Tessellation(
-        options["tessellation"] or "hexagonal", options["neighbourhood"] or "full", options["costs"] or "paper"
+        options["tessellation"] or "hexagonal",
+        options["neighbourhood"] or "full",
+        options["costs"] or "paper",
+        options["clock"] or "steps",
     )
     with _executor(tiling) as (executor, workers), bar("settling", "tiles") as progress:
         field = make_tiled_field(

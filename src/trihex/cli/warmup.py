@@ -18,12 +18,14 @@ def command(planner: str | None) -> None:
     from trihex.errors import TrihexError
     from trihex.fields import every_field_kernels
     from trihex.kernels.marks import can_keep, is_marked
-    from trihex.kernels.needs import KERNELS_OF, kernels_of
+    from trihex.kernels.needs import KERNELS_OF, Kernels, kernels_of
     from trihex.kernels.preparing import prepare
 
     if not can_keep():
         raise TrihexError("there is no folder in which compiled kernels can be kept: set NUMBA_CACHE_DIR to one")
-    uses = (*((planner, "audit", "bound") if planner else KERNELS_OF), *every_field_kernels())
+    judges = ("audit", "timely audit", "bound")
+    names = [use for use in KERNELS_OF if not planner or planner in use.replace("_", " ").split() or use in judges]
+    uses: list[str | Kernels] = [*names, *every_field_kernels()]
     missing = sum(not is_marked(kernels) for kernels in kernels_of(uses))
     prepare(*uses)
     click.echo(f"{len(kernels_of(uses))} parts are ready, {missing} of them compiled now")

@@ -54,10 +54,10 @@ def fill_directions(
     directions[: layout.origin] = directions[end:] = 0
     offset, cost = layout.offset_of_direction, layout.tessellation.cost_of_direction
     is_odd = np.arange(kernels.BLOCK, dtype=np.uint16) & 1
-    halves = np.empty(kernels.BLOCK + 2 * int(np.abs(offset).max()), dtype=np.uint16)
+    rests = np.empty(kernels.BLOCK + 2 * int(np.abs(offset).max()), dtype=np.uint16)
     for start in range(layout.origin, end, BLOCK):
         stop = min(start + BLOCK, end)
-        kernels.fill_directions(distance, offset, cost, start, stop, is_odd, halves, directions)
+        kernels.fill_directions(distance, offset, cost, start, stop, is_odd, rests, directions)
     if moves is not None:
         directions &= moves
 

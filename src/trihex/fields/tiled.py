@@ -169,6 +169,7 @@ class _Journal:
         kind = ground.tessellation
         known |= {"tessellation": kind.name, "neighbourhood": kind.neighbourhood, "costs": kind.costs}
         known |= {"corners": ground.corners, "destinations": ground.destinations}
+        known |= {"clock": kind.clock} if kind.clock != "steps" else {}  # which came later
         head = json.dumps(known).encode() + b"\n"
         self.offset, count = len(head), self.rows * self.columns
         self.is_new = not (path.exists() and Path(ground.distance).exists())

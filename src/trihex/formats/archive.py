@@ -43,11 +43,16 @@ def pack(
                         progress(done, total)
 
 
-def unpack(content: bytes, path: object, entries: Entries, version: int, what: str) -> dict[str, Any]:
-    """Return the entries of an .npz file by name, or raise FormatError if they are not those of `what`."""
+def unpack(
+    content: bytes, path: object, entries: Entries, version: int, what: str, later: dict[str, Any]
+) -> dict[str, Any]:
+    """Return the entries of an .npz file by name, or raise FormatError if they are not those of `what`.
+
+    Entries in `later` may be absent, and are then what it says.
+    """
     try:
         with zipfile.ZipFile(BytesIO(content)) as archive:
-            arrays = _unpacked(archive, path, entries, what)
+            arrays = later | _unpacked(archive, path, entries, what, later)
     except (FormatError, MemoryError):
         raise
     except Exception as error:  # zipfile, zlib and numpy raise whatever they stumble on: even tokenize.TokenError
@@ -57,10 +62,15 @@ def unpack(content: bytes, path: object, entries: Entries, version: int, what: s
     return arrays
 
 
-def _unpacked(archive: zipfile.ZipFile, path: object, entries: Entries, what: str) -> dict[str, Any]:
+def _unpacked(
+    archive: zipfile.ZipFile, path: object, entries: Entries, what: str, later: dict[str, Any]
+) -> dict[str, Any]:
     """Return the entries, each looked at before it is unpacked."""
     infos = {info.filename.removesuffix(".npy"): info for info in archive.infolist()}
-    for wrong, rule in ((entries.keys() - infos, "must have"), (infos.keys() - entries, "must not have")):
+    for wrong, rule in (
+        (entries.keys() - infos - later.keys(), "must have"),
+        (infos.keys() - entries, "must not have"),
+    ):
         if wrong:
             raise FormatError(f"{path}: {what} {rule} the entry {min(wrong)!r}")
     unpacked = sum(info.file_size for info in infos.values())
@@ -68,6 +78,8 @@ def _unpacked(archive: zipfile.ZipFile, path: object, entries: Entries, what: st
         raise FormatError(f"{path}: must unpack to at most {MAX_UNPACKED} bytes, not {unpacked}")
     arrays: dict[str, Any] = {}
     for name, (kind, axes) in entries.items():
+        if name not in infos:
+            continue
         with archive.open(infos[name]) as file:
             if npy.read_magic(file) != (1, 0):
                 raise FormatError(f"{path}: entry {name!r} has an unknown npy version")

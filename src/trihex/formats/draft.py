@@ -27,7 +27,7 @@ class Draft(Record):
         How many robots to draw by `seed`, instead of `robots`.
     seed : int, optional
     waiting_cost, destination_capacity : int, optional
-    crossing, corners : str, optional
+    crossing, corners, clock, following : str, optional
     planner : str, optional
     planner_options : dict
     outputs : dict
@@ -48,6 +48,8 @@ class Draft(Record):
     planner: str | None = None
     planner_options: dict[str, Any] = field(default_factory=dict)
     outputs: dict[str, Any] = field(default_factory=dict)
+    clock: str | None = None
+    following: str | None = None
     notes: tuple[str, ...] = ()
 
     def with_notes(self, notes: Iterable[str]) -> Draft:
@@ -67,7 +69,7 @@ class Draft(Record):
         destinations = () if self.destinations is None else self.destinations
         if len(destinations) == 0:
             raise ScenarioError("destinations must name at least one cell")
-        rules = {"crossing": self.crossing, "corners": self.corners}
+        names = ("crossing", "corners", "clock", "following")
         scenario = kind(
             self.area,
             destinations,  # type: ignore[arg-type]
@@ -75,7 +77,7 @@ class Draft(Record):
             waiting_cost=self.waiting_cost,  # type: ignore[arg-type]
             destination_capacity=self.destination_capacity,
             seed=self.seed,
-            **{name: rule for name, rule in rules.items() if rule is not None},
+            **{name: rule for name in names if (rule := getattr(self, name)) is not None},
         )
         if self.random_count is None:
             return scenario
@@ -98,6 +100,6 @@ def _draw(scenario: Scenario, count: int, seed: int) -> NDArray[np.int64]:
 
 def draft_of(scenario: Scenario) -> Draft:
     """Return the draft that completes to `scenario`; a waiting cost like that of an edge stays so if costs change."""
-    names = ("destinations", "robots", "seed", "crossing", "corners", "destination_capacity")
+    names = ("destinations", "robots", "seed", "crossing", "corners", "destination_capacity", "clock", "following")
     waiting_cost = None if scenario.waiting_cost == scenario.area.tessellation.waiting_cost else scenario.waiting_cost
     return Draft(scenario.area, waiting_cost=waiting_cost, **{name: getattr(scenario, name) for name in names})

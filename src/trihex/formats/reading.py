@@ -82,7 +82,7 @@ def _wanted(
     check_type("tessellation", tessellation, Tessellation, str, type(None))
     base = tessellation if isinstance(tessellation, Tessellation) else own
     name = tessellation if isinstance(tessellation, str) else base.name
-    return Tessellation(name, neighbourhood or base.neighbourhood, costs or base.costs)
+    return Tessellation(name, neighbourhood or base.neighbourhood, costs or base.costs, base.clock)
 
 
 def _read_area_draft(path: Path, options: AreaOptions) -> Draft:
@@ -185,7 +185,7 @@ def likeness_of(content: bytes, path: str | os.PathLike[str], scenario: Scenario
     for name in TESSELLATIONS:
         if name == own.name:
             continue
-        other = Tessellation(name, "full", own.costs)
+        other = Tessellation(name, "full", own.costs, own.clock)
         area = Area(other, scenario.area.barriers)  # without a frame, which might forbid it
         waiting_cost = scenario.waiting_cost if scenario.waiting_cost != own.waiting_cost else other.waiting_cost
         try:

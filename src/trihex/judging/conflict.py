@@ -23,6 +23,7 @@ _CODES = (
     ("corner", 1, 2, "robot {0} moves from {a} to {b} round a corner that the rule closes"),
     ("capacity", 1, 1, "robot {0} is one too many to enter destination {a}"),
     ("arrival", 1, 1, "robot {0} acts on after it has entered destination {a}"),
+    ("cell", 2, 1, "robots {0} and {1} both own cell {a}"),
     ("arrival", 1, 1, "robot {0} ends in {a}, which is no destination, though it could have reached one"),
     ("barrier", 1, 1, "robot {0} starts on the barrier {a}"),
     ("barrier", 0, 1, "destination {a} is a barrier"),
@@ -40,8 +41,9 @@ class Conflict:
     kind : str
         One of `KINDS`.
     step : int
-        The step in which it happens, from 1; 0 for robots that do not act, or start on a destination yet act, and for
-        starts and destinations that are impossible.
+        The step in which it happens, from 1; where moves last, the tick in which the later robot begins to own what
+        another owns, or begins or ends its move. 0 for robots that do not act, or start on a destination yet act, and
+        for starts and destinations that are impossible.
     robots : tuple of int
         Numbers of the robots, ascending; none where a destination is a barrier.
     cells : tuple of (x, y)

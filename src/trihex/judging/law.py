@@ -28,6 +28,8 @@ def make_law(scenario: Scenario) -> Law:
         corner_rule=scenario.corner_rule,
         forbids_crossing=scenario.forbids_crossing,
         capacity=scenario.entry_limit,
+        duration=scenario.duration_of_direction,
+        forbids_following=scenario.following == "forbid",
     )
     return law
 

@@ -16,6 +16,7 @@ from trihex.errors import check_type
 from trihex.fields import NScheme, make_n_scheme
 from trihex.judging.audit import Audit, audit_plan
 from trihex.judging.corners import count_corner_moves
+from trihex.kernels.needs import use_of
 from trihex.kernels.preparing import prepare
 from trihex.plans import Plan
 from trihex.record import Record, counted, html_table
@@ -146,6 +147,8 @@ class Report(Record):
             "corners": scenario.corners,
             "crossing": scenario.crossing,
             "destination_capacity": scenario.destination_capacity,
+            "clock": scenario.clock,
+            "following": scenario.following,
             "cells": area.cell_count,
             "free_cells": area.free_count,
             "robots": scenario.robot_count,
@@ -202,7 +205,8 @@ def make_report(
     check_type("n_scheme", n_scheme, NScheme, type(None))
     check_type("audit", audit, Audit, type(None))
     check_type("lower_bound", lower_bound, LowerBound, type(None))
-    prepare(*("audit",) * (audit is None), *("bound",) * (lower_bound is None and not plan.optimal))
+    judge = use_of("audit", plan.scenario.is_stepwise)
+    prepare(*(judge,) * (audit is None), *("bound",) * (lower_bound is None and not plan.optimal))
     n_scheme = make_n_scheme(plan.scenario) if n_scheme is None else n_scheme
     audit = audit_plan(plan) if audit is None else audit
     # Where the optimum is proven no bound is asked for, so a cheap one will do until that is known.

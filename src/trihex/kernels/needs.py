@@ -13,8 +13,9 @@ _DIRECTIONS = (*_FIELD, "areas.moves", "fields.directions")
 _REPAIR = (*_DIRECTIONS, "fields.repair", "fields.changing")
 _GREEDY = (*_DIRECTIONS, "planners.greedy", "planners.cells", "planners.rows", "plans.replay")
 _FCOST = (*_GREEDY, *_REPAIR, "planners.fcost", "planners.slots", "planners.lanes", "planners.laying")
+_TIMELY = (*_DIRECTIONS, "planners.timely", "planners.tick_rows", "planners.slots", "plans.replay")
 _ASTAR = (*_FIELD, "areas.moves", "planners.astar", "planners.reservations", "plans.replay")
-_OPTIMUM = ("fields.steps", "optimum.paths", "optimum.single", "optimum.levels", "optimum.earliest", "optimum.laid")
+_OPTIMUM = (*_FIELD, "areas.moves", "fields.steps", "optimum.paths", "optimum.single", "plans.replay")
 _BOUND = ("areas.moves", "fields.steps", "bounds.cuts", "bounds.gates", "bounds.meetings", "bounds.serving")
 _EXECUTION = (*_REPAIR, "running.stepping", "running.lines")
 
@@ -26,13 +27,19 @@ KERNELS_OF: dict[str, tuple[str, ...]] = {
     "greedy": _GREEDY,
     "fcost": _FCOST,
     "astar": _ASTAR,
-    "optimal": (*_FCOST, *_OPTIMUM),
+    "timely greedy": _TIMELY,
+    "timely fcost": (*_TIMELY, *_REPAIR, "planners.lanes", "planners.laying"),
+    "optimal": _OPTIMUM,  # and, where robots crowd, one of two more: `trihex.planners.uses_of`
+    "optimal_levels": (*_OPTIMUM, "optimum.levels"),
+    "optimal_earliest": (*_OPTIMUM, *_FCOST, "optimum.earliest", "optimum.laid"),
     "audit": ("judging.audit", "plans.replay"),
+    "timely audit": ("judging.timed", "plans.replay"),
     "bound": (*_BOUND, "bounds.steps", "bounds.units"),
     "execution": _EXECUTION,
     "trial": (*_EXECUTION, "running.sensing"),
     "order": ("running.passing", "plans.replay"),
     "picture": ("pictures.raster", "plans.replay"),
+    "timely picture": ("pictures.raster", "plans.ticks"),
     "table": ("formats.table_text",),
     "archive": ("formats.escape",),
     "area": ("areas.caves", "areas.mazes", "areas.coverage", "areas.regions"),
@@ -40,6 +47,12 @@ KERNELS_OF: dict[str, tuple[str, ...]] = {
     "page": ("plans.playback",),
     "reach": ("judging.reach",),
 }
+
+
+def use_of(name: str, is_stepwise: bool) -> str:
+    """Return the key of `KERNELS_OF` for a planner or judge: some have others where time is not in steps alone."""
+    timely = f"timely {name}"
+    return name if is_stepwise or timely not in KERNELS_OF else timely
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ from numba.core.options import DefaultOptions
 
 from trihex.kernels import loading
 from trihex.kernels.caching import keep
+from trihex.kernels.compilers import compilers
 
 if loading.is_alone:
     loading.load_numba_alone()
@@ -46,16 +47,18 @@ UNCOUNTED: Any = {"_nrt": False} if hasattr(DefaultOptions, "_nrt") else {}
 # 2 to 25 times as much; numba's own `inline="always"` takes 30 s to compile where this takes 5.
 _BARE: Any = {"nogil": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True, **UNCOUNTED}
 _INLINED: Any = {"forceinline": True, **_BARE} if hasattr(DefaultOptions, "forceinline") else _BARE
-HELPER: Any = njit(**_INLINED)
+_FOR_KERNELS, _FOR_HELPERS = compilers() if UNCOUNTED else ({}, {})  # ours count no references
+HELPER: Any = njit(**_INLINED, **_FOR_HELPERS)
 # The same for a function that is long and called seldom, so that its lines do not stand in the way of others.
-APART: Any = njit(**_BARE)
+APART: Any = njit(**_BARE, **_FOR_HELPERS)
+_KERNEL: Any = {"nogil": True, "no_cfunc_wrapper": True, **UNCOUNTED, **_FOR_KERNELS}
 
 
 def kernel(signature: Any, **options: Any) -> Any:
     """Declare a kernel that Python calls: kept on disk, without the interpreter's lock, no arrays made inside."""
 
     def declare(function: Any) -> Any:
-        made = njit(nogil=True, **UNCOUNTED, **options)(function)
+        made = njit(**_KERNEL, **options)(function)
         if made is not function:  # it is under NUMBA_DISABLE_JIT
             keep(made)
             made.compile(signature)

@@ -6,7 +6,7 @@ from hashlib import sha256
 from pathlib import Path
 
 _PACKAGE = Path(__file__).parents[1]
-_IMPORT = re.compile(r"^from trihex\.([\w.]*kernels[\w.]*) import ([^#(\n]*|\([^)]*\))", re.MULTILINE)
+_IMPORT = re.compile(r"^ *from trihex\.([\w.]*kernels[\w.]*) import ([^#(\n]*|\([^)]*\))", re.MULTILINE)
 
 
 def file_of(module: str) -> Path:

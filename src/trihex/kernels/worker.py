@@ -5,6 +5,7 @@ import signal
 import sys
 
 from trihex.kernels import loading
+from trihex.kernels.haste import hasten
 from trihex.kernels.marks import mark
 from trihex.kernels.needs import Kernels
 
@@ -13,6 +14,7 @@ def main() -> None:
     """Compile and mark what each line names, and answer it with a line: an empty one, or what went wrong."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for who started it
     loading.is_alone = True
+    hasten()
     for line in sys.stdin:
         kernels = Kernels(*json.loads(line))
         try:

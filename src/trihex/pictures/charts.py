@@ -17,7 +17,8 @@ from trihex.pictures.palette import INK
 from trihex.plans import Plan
 
 # What is asked of a run beside its robots: rows that differ in one of these never become one bar.
-_RULES = ("neighbourhood", "costs", "waiting_cost", "crossing", "corners", "destination_capacity")
+_RULES = ("neighbourhood", "costs", "waiting_cost", "crossing", "corners", "destination_capacity", "clock", "following")
+_SINCE = {"clock": "steps", "following": "allow"}  # what holds in tables that do not have them yet
 # The 97.5 % point of Student's distribution, by degrees of freedom; in between, the last before.
 _STUDENT = {1: 12.71, 2: 4.303, 3: 3.182, 4: 2.776, 5: 2.571, 6: 2.447, 7: 2.365, 8: 2.306, 9: 2.262, 14: 2.145}
 _STUDENT |= {19: 2.093, 29: 2.045, 59: 2.001, 119: 1.980}
@@ -41,7 +42,7 @@ def draw_arrivals(
         arrived = np.append(np.arange(steps.size + 1), steps.size)
         label = f"{plan.planner or 'plan'}, {plan.scenario.area.tessellation.name}"
         ax.step([0, *steps, plan.steps], arrived, where="post", color=series(number), label=label)
-    ax.set_xlabel("step")
+    ax.set_xlabel(" or ".join(sorted({plan.scenario.step_word for plan in plans})) or "step")
     ax.set_ylabel("robots arrived")
     ax.set_ylim(bottom=0)
     if title:
@@ -59,9 +60,9 @@ def draw_comparison(rows: Sequence[Row] | Any, ax: Any = None, *, title: str | N
     rows : sequence of mappings, or Comparison
         With the keys tessellation, planner and gap, as in the summary of a report, a comparison, or a study
         (`read_results`). Rows of the same tessellation, planner, options and rules (corners, crossing, waiting cost,
-        neighbourhood, costs, destination capacity) become one bar, their mean gap. Where they differ in their seeds,
-        a line shows the 95 % interval of the mean over seeds, each the mean of its rows; without seeds, over rows. A
-        star marks plans that are all proven optimal. Rows whose gap is None are left out.
+        neighbourhood, costs, destination capacity, clock, following) become one bar, their mean gap. Where they
+        differ in their seeds, a line shows the 95 % interval of the mean over seeds, each the mean of its rows; without
+        seeds, over rows. A star marks plans that are all proven optimal. Rows whose gap is None are left out.
     ax : Axes, optional
     title : str, optional
     legend : bool
@@ -121,8 +122,12 @@ def _checked(rows: Sequence[Row]) -> Sequence[Row]:
 
 def _named(rows: Sequence[Row]) -> list[str]:
     """Return for each row its planner with its options, and those rules that are not the same in all rows."""
-    varied = [key for key in _RULES if len({row.get(key) for row in rows}) > 1]
-    return [", ".join([_planner_of(row), *(_rule_of(key, row.get(key)) for key in varied)]) for row in rows]
+    rules = [{key: row.get(key, _SINCE.get(key)) for key in _RULES} for row in rows]
+    varied = [key for key in _RULES if len({own[key] for own in rules}) > 1]
+    return [
+        ", ".join([_planner_of(row), *(_rule_of(key, own[key]) for key in varied)])
+        for row, own in zip(rows, rules, strict=True)
+    ]
 
 
 def _planner_of(row: Row) -> str:

@@ -66,13 +66,15 @@ class Film(ABC):
     max_frames : int
     colours : tuple of Colour
         What moves over the background.
-    most_substeps : int
-        Frames a step at most.
     """
 
     max_frames: int
     colours: ClassVar[tuple[Colour, ...]]
-    most_substeps: ClassVar[int]
+
+    @property
+    @abstractmethod
+    def most_substeps(self) -> int:
+        """Frames a step at most."""
 
     @property
     @abstractmethod

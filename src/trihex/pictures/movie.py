@@ -19,8 +19,9 @@ from trihex.pictures.png import paint_disc_marks, write_words
 from trihex.pictures.scene import Key, Scene, centres_of, ink_on, scale_for
 from trihex.pictures.sheet import Words
 from trihex.pictures.ways import places_between
-from trihex.plans import Plan, follow
+from trihex.plans import Plan, Walk
 
+_FRAMES_A_MOVE = 8
 _SIDE = 600.0  # the longest side of a movie unless the caller names a width
 
 
@@ -86,7 +87,16 @@ class PlanFilm(Film):
     legend: bool
 
     colours = (STRANDED, FINAL, WAITING, MOVING)
-    most_substeps = 8
+
+    @property
+    def most_substeps(self) -> int:
+        """Frames a step at most; as many for a move across an edge, whatever it lasts."""
+        return -(-_FRAMES_A_MOVE // self._edge)
+
+    @property
+    def _edge(self) -> int:
+        """How many steps (ticks) a move across an edge lasts."""
+        return int(self.plan.scenario.duration_of_direction[0])
 
     @property
     def steps(self) -> int:
@@ -118,37 +128,36 @@ class PlanFilm(Film):
         """Yield the frames, each of shape (height, width, 3)."""
         groups: Groups = []
         last = -1
-        for step, x, y in self._places():
-            if step != last:
-                groups, last = self._groups(step), step
-            yield self._frame(step, x, y, groups)
+        for walk, x, y in self._places():
+            if walk.step != last:
+                groups, last = self._groups(walk), walk.step
+            yield self._frame(last, x, y, groups)
 
-    def _places(self) -> Iterator[tuple[int, NDArray[np.float64], NDArray[np.float64]]]:
-        """Yield the step, and the place of each robot in edge steps, of each frame."""
-        plan, area = self.plan, self.plan.scenario.area
-        site = area.layout.cell_to_site(plan.scenario.robots)
-        step = 0
-        while step < plan.steps:
-            cells = area.layout.site_to_cell(site)
-            yield step, *centres_of(area, cells)
-            next_step = min(step + self.pace.every, plan.steps)
-            follow(plan, step, next_step, site)
-            if self.pace.substeps > 1:
-                later = area.layout.site_to_cell(site)
-                for share in (np.arange(1, self.pace.substeps) / self.pace.substeps).tolist():
-                    yield step, *places_between(area, cells, later, share)
-            step = next_step
-        yield step, *centres_of(area, area.layout.site_to_cell(site))
+    def _places(self) -> Iterator[tuple[Walk, NDArray[np.float64], NDArray[np.float64]]]:
+        """Yield the walk at the step, and the place of each robot in edge steps, of each frame."""
+        area, walk = self.plan.scenario.area, Walk(self.plan)
+        for step in [*range(0, self.steps, self.pace.every), self.steps]:
+            walk.go_to(step)
+            cells = area.layout.site_to_cell(walk.site)
+            substeps = self.pace.substeps if step < self.steps else 1
+            if self.plan.has_steps:
+                yield walk, *centres_of(area, cells)
+                if substeps == 1:
+                    continue
+            later = area.layout.site_to_cell(walk.next_site())
+            for part in range(int(self.plan.has_steps), substeps):
+                yield walk, *places_between(area, cells, later, walk.done(part / substeps))
 
-    def _groups(self, step: int) -> Groups:
-        """Return the robots to be seen after `step` by colour: the sets of the step that follows."""
-        plan, arrival = self.plan, self.plan.arrival_step_of_robot
+    def _groups(self, walk: Walk) -> Groups:
+        """Return the robots to be seen after a step by colour: the sets of the step that follows."""
+        step, arrival = walk.step, self.plan.arrival_step_of_robot
         groups: Groups = [(np.flatnonzero(arrival < 0), STRANDED)]
-        if step < plan.steps:
-            sets = plan.sets_at(step + 1)
+        if step < self.steps:
+            sets = walk.sets()
             for robots, colour in ((sets.waiting, WAITING), (sets.filled, MOVING)):
                 groups.append((robots[arrival[robots] >= 0], colour))
-        final = np.flatnonzero((arrival >= 0) & (arrival > step - self.pace.every) & (arrival <= step))
+        shown = max(self.pace.every, self._edge)
+        final = np.flatnonzero((arrival >= 0) & (arrival > step - shown) & (arrival <= step))
         return [*groups, (final, FINAL)]
 
     def _frame(self, step: int, x: NDArray[np.float64], y: NDArray[np.float64], groups: Groups) -> NDArray[np.uint8]:
@@ -166,5 +175,9 @@ class PlanFilm(Film):
         if self.clock:
             arrival = self.plan.arrival_step_of_robot
             arrived = np.count_nonzero((arrival >= 0) & (arrival <= step))
-            words.append(self.clock_words(f"step {step} of {self.plan.steps}, arrived {arrived} of {arrival.size}"))
+            words.append(
+                self.clock_words(
+                    f"{self.plan.scenario.step_word} {step} of {self.plan.steps}, arrived {arrived} of {arrival.size}"
+                )
+            )
         return write_words(frame, words)

@@ -80,7 +80,7 @@ def picture_of_plan(
     scene = Scene(area, cells, colours, scale, bold, tuple(marks), tuple(keys), ground=ground)
     part = "" if area is whole else f" of {whole.width} x {whole.height}"
     more = f"{part}, {arrived.size} of {scenario.robot_count} robots arrive"
-    more += f", {plan.steps} steps, total time {plan.total_time}"
+    more += f", {plan.steps} {scenario.step_word}s, total time {plan.total_time}"
     return titled(scene, title, f"Plan ({plan.planner})" if plan.planner else "Plan", more, legend)
 
 
@@ -109,5 +109,5 @@ def _cropped(plan: Plan) -> Plan:
     destinations, robots = (
         np.stack(area.cell_to_xy(cells), axis=-1) - (left, top) for cells in (scenario.destinations, scenario.robots)
     )
-    moved = Scenario(part, destinations, robots, waiting_cost=scenario.waiting_cost)
+    moved = Scenario(part, destinations, robots, waiting_cost=scenario.waiting_cost, following=scenario.following)
     return Plan(moved, plan.actions, plan.first_action, plan.planner, plan.optimal)

@@ -35,9 +35,10 @@ def bends_of(area: Area, cells: NDArray[np.int64], later: NDArray[np.int64]) -> 
 
 
 def places_between(
-    area: Area, cells: NDArray[np.int64], later: NDArray[np.int64], share: float
+    area: Area, cells: NDArray[np.int64], later: NDArray[np.int64], share: float | NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return where robots are, in edge steps, that have gone a share of the way from their cells to later ones."""
+    """Return where robots are, in edge steps, that have gone a share of the way, each its own, to later cells."""
+    share = np.reshape(share, (-1, 1))
     here, there = (np.stack(centres_of(area, own), axis=-1) for own in (cells, later))
     place = here + share * (there - here) + (1 - abs(2 * share - 1)) * bends_of(area, cells, later)
     return place[:, 0], place[:, 1]

@@ -8,4 +8,5 @@ from .registry import (
     make_plan as make_plan,
     options_of as options_of,
     planner_named as planner_named,
+    uses_of as uses_of,
 )

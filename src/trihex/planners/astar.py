@@ -44,8 +44,7 @@ def plan_astar(n_scheme: NScheme, *, memory_limit: int | None = None, progress: 
     for respects_starts in (False, True):
         reservations = Reservations(n_scheme, memory_limit)
         if going.size:
-            most_cost = int(scenario.area.tessellation.cost_of_direction.max())
-            reservations.make_room(int(distance[going[-1]]) // most_cost + 1)
+            reservations.make_room(reservations.least_steps(int(distance[going[-1]])) + 1)
         ways = _find_ways(reservations, site[going], respects_starts, progress)
         if ways is not None:
             break

@@ -101,6 +101,12 @@ def regions_of(scenario: Scenario, at_once: bool = False) -> NDArray[np.int64]:
     return region.reshape(-1).astype(np.int64)
 
 
+def count_going(n_scheme: NScheme) -> int:
+    """Return how many robots of a scenario have a way before them."""
+    distance = n_scheme.distance_of_cell(n_scheme.scenario.robots)
+    return int(np.count_nonzero((distance != NOT_REACHED) & (distance != 0)))
+
+
 def make_crowd(n_scheme: NScheme, find_regions: Callable[[NDArray[np.int32]], NDArray[np.int64]]) -> Crowd:
     """Return the crowd of a scenario; ``find_regions(starts)`` tells the region of each start."""
     scenario = n_scheme.scenario

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from trihex.fields import NScheme, make_d_scheme
 from trihex.planners.crowd import make_crowd, make_ways, regions_of
 from trihex.planners.recording import Progress, Recording
+from trihex.planners.timely import descend_timely
 from trihex.plans import Arrivals, Plan
 
 
@@ -43,6 +44,8 @@ def run_greedy(
     from trihex.planners.kernels.cells import DESTINATION, OCCUPIED, Cells, find_regions
 
     scenario = n_scheme.scenario
+    if not scenario.is_stepwise:
+        return descend_timely(make_d_scheme(n_scheme), keeps_actions, progress, limit)
     layout = scenario.area.layout
     destinations = layout.cell_to_site(scenario.destinations)
     flags = make_d_scheme(n_scheme).directions_of_site.copy()

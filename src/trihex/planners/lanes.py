@@ -94,11 +94,12 @@ def _linked(n_scheme: NScheme, all_there_are: bool, most_visits: int) -> tuple[A
     scenario = n_scheme.scenario
     layout, cost = scenario.area.layout, scenario.area.tessellation.cost_of_direction
     starts = _starts(n_scheme)
+    places = scenario.headway // int(scenario.duration_of_direction.min())
     demand = given(
         lanes.LaneDemand,
         starts=starts,
         due=np.full(starts.size, residual.NOBODY - 1, dtype=np.int64),
-        price=-1 if all_there_are else price_of_waiting(scenario),
+        price=-1 if all_there_are else price_of_waiting(scenario) * places,
         most_lanes=entries_per_step(scenario),
         capacity=scenario.entry_limit,
     )
@@ -151,5 +152,6 @@ def _starts(n_scheme: NScheme) -> NDArray[np.int32]:
 
 
 def price_of_waiting(scenario: Scenario) -> int:
-    """Return what a step of waiting in a line costs: w_t, but no more than to go to and fro instead."""
-    return min(scenario.waiting_cost, int(scenario.area.tessellation.cost_of_direction.min()))
+    """Return what it costs to wait in a line for one move: w_t, but no more than to go to and fro instead."""
+    shortest = int(scenario.duration_of_direction.min())
+    return min(scenario.waiting_cost * shortest, int(scenario.area.tessellation.cost_of_direction.min()))

@@ -9,9 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from trihex.areas import Scenario
 from trihex.errors import PlanError, check_choice
 from trihex.fields import NScheme
 from trihex.kernels.codes import NOT_REACHED
+from trihex.kernels.preparing import prepare
 from trihex.optimum import (
     OBJECTIVES,
     Flow,
@@ -59,12 +61,14 @@ def plan_optimal(
     Raises
     ------
     PlanError
-        If there is no such objective.
+        If there is no such objective, or the rules are no pure flow: moves of different durations (clock "costs" on
+        triangles with 12 neighbours and squares with 8), or following "forbid".
     TooLargeError
         If the time-expanded graph would take more than `memory_limit`.
     """
     check_choice("objective", objective, OBJECTIVES, PlanError)
     scenario = n_scheme.scenario
+    _check_is_flow(scenario)
     if objective == "time" and scenario.waiting_cost == 0:
         # Nobody needs a detour where waiting is free: greedy descent pays the distances, which no plan can beat. (The
         # flow would see the same, but among endlessly many layers of equal cost.)
@@ -79,6 +83,20 @@ def plan_optimal(
     return make_plan_of_flow(flow, going[order], proves=objective == "time")
 
 
+def _check_is_flow(scenario: Scenario) -> None:
+    """Raise PlanError where it is more than the flow through a node of each step that robots must not do."""
+    if scenario.is_stepwise:
+        return
+    rule = "following='allow', not 'forbid'"
+    if scenario.following == "allow":
+        *some, last = map(str, np.unique(scenario.duration_of_direction))
+        rule = f"moves that last equally long, not {', '.join(some)} and {last} ticks as by clock='costs' here"
+    raise PlanError(
+        f"planner 'optimal' needs {rule}, which is no pure flow; the lower bound in the report of another planner "
+        "tells how far its plan is from the optimum at most"
+    )
+
+
 def _find_flow(
     n_scheme: NScheme, network: Network, cells: NDArray[np.int64], robots: NDArray[np.int64], **options: Any
 ) -> Flow:
@@ -86,6 +104,7 @@ def _find_flow(
     flow = make_flow_singly(network, cells, **options)
     if flow is not None:
         return flow
+    prepare("optimal_earliest" if network.has_equal_steps else "optimal_levels")
     if network.has_equal_steps:
         return make_earliest_flow(network, cells, robots, plan_fcost(n_scheme), **options)
     return make_flow_by_levels(network, cells, **options)

@@ -67,10 +67,10 @@ class Recording:
         crowd, first_step, block = self.crowd, 0, 0
         going, nouns = crowd.going, crowd.for_kernels()
         while not self.is_over:
-            steps, block = crowd.steps_of_block(), block + 1
+            steps, block = self._steps_of_block(first_step), block + 1
             self._check_memory(steps)
             for regions in crowd.parts(steps):
-                rows = _make_rows(int(crowd.count_of_region[regions].sum()), block, first_step, steps)
+                rows = self._make_rows(int(crowd.count_of_region[regions].sum()), block, first_step, steps)
                 self.lost += act(regions, *nouns, rows)
                 self._keep(rows)
                 if self.total_time >= limit:
@@ -78,6 +78,18 @@ class Recording:
             first_step += steps
             if progress is not None:
                 progress(going - crowd.going, going)
+
+    def _steps_of_block(self, first_step: int) -> int:
+        """Return how many steps to simulate at a time after so many."""
+        return self.crowd.steps_of_block()
+
+    def _make_rows(self, count: int, block: int, first_step: int, steps: int) -> Any:
+        """Return empty `Rows` of kernels for so many robots and a block of steps."""
+        from trihex.kernels.signatures import given
+        from trihex.planners.kernels.rows import Rows
+
+        robot, action = np.empty(count, dtype=np.int32), np.empty(count * steps, dtype=np.uint8)
+        return given(Rows, robot=robot, action=action, block=block, first_step=first_step, steps=steps)
 
     def _check_memory(self, steps: int) -> None:
         """Refuse to go on for so many steps if what is left to record and the plan take more memory than is free.
@@ -132,12 +144,3 @@ class Recording:
         return Arrivals(
             scenario, np.where((arrival == 0) & ~starts_there, -1, arrival), self._by_robot(self._time), planner
         )
-
-
-def _make_rows(count: int, block: int, first_step: int, steps: int) -> Any:
-    """Return empty `Rows` of kernels for so many robots and a block of steps."""
-    from trihex.kernels.signatures import given
-    from trihex.planners.kernels.rows import Rows
-
-    robot, action = np.empty(count, dtype=np.int32), np.empty(count * steps, dtype=np.uint8)
-    return given(Rows, robot=robot, action=action, block=block, first_step=first_step, steps=steps)

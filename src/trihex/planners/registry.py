@@ -16,6 +16,7 @@ from typing import Any, Literal, overload
 from trihex.areas import Scenario, check_possible
 from trihex.errors import PlanError, check_choice, check_type
 from trihex.fields import NScheme, field_kernels, make_n_scheme
+from trihex.kernels.needs import use_of
 from trihex.kernels.preparing import prepare
 from trihex.plans import Arrivals, Plan, make_arrivals
 
@@ -49,6 +50,20 @@ def planner_named(name: str) -> Planner:
     check_choice("planner", name, PLANNERS, PlanError)
     planner: Planner = getattr(import_module(f"trihex.planners.{PLANNERS[name]}"), f"plan_{name}")
     return planner
+
+
+def uses_of(name: str, scenario: Scenario) -> list[str]:
+    """Return what a planner needs to be compiled for a scenario, as keys of `trihex.kernels.needs.KERNELS_OF`.
+
+    Where time is not in steps alone others go from tick to tick; what `optimal` does where robots crowd depends on
+    whether all steps cost the same.
+    """
+    if name != "optimal":
+        return [use_of(name, scenario.is_stepwise)]
+    if scenario.waiting_cost == 0:
+        return [name, "greedy"]
+    is_equal = (scenario.area.tessellation.cost_of_direction == scenario.waiting_cost).all()
+    return [name, "optimal_earliest" if is_equal else "optimal_levels"]
 
 
 def options_of(name: str) -> dict[str, Any]:
@@ -164,7 +179,7 @@ def make_plan(
     plan = planner_named(planner)
     check_choice("record", record, RECORDS, PlanError)
     check_planner_options(planner, options)
-    prepare(planner, field_kernels(scenario.area.tessellation, scenario.corners))
+    prepare(*uses_of(planner, scenario), field_kernels(scenario.area.tessellation, scenario.corners))
     if n_scheme is None:
         n_scheme = make_n_scheme(scenario)
     elif n_scheme.scenario is not scenario and n_scheme.scenario != scenario:

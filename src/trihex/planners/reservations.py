@@ -34,7 +34,7 @@ class Reservations:
         layout, tessellation = scenario.area.layout, scenario.area.tessellation
         self._limit = limit_or_default(memory_limit)
         self._forbids = scenario.forbids_crossing
-        cost = tessellation.cost_of_direction
+        cost, duration = tessellation.cost_of_direction, tessellation.duration_of_direction
         sites = layout.cell_to_site(scenario.destinations).astype(np.int64)
         around = np.unique(sites[:, None] + layout.offset_of_direction[sites & 1])
         self._terrain = given(
@@ -43,13 +43,14 @@ class Reservations:
             vertex=layout.vertex_of_direction,
             back=layout.back_of_direction,
             cost=cost,
+            duration=duration,
             moves=scenario.moves,
             distance=self.distance,
             gates=around[(self.distance[around] > 0) & (self.distance[around] != NOT_REACHED)].astype(np.int32),
             first_vertex_move=scenario.first_vertex_move,
             waiting_cost=scenario.waiting_cost,
-            least_cost=min(scenario.waiting_cost, int(cost.min())),
-            most_cost=cost.max(),
+            least_cost=min(scenario.waiting_cost, int((cost // duration).min())),
+            most_cost=(cost // duration).max(),
         )
         ends = sites.size if scenario.entry_limit else 0
         number = np.zeros(layout.size if ends else 0, dtype=np.int32)
@@ -58,6 +59,7 @@ class Reservations:
         self._reserved = given(
             reservations.Reserved,
             rows=0,
+            per_tick=0 if scenario.is_stepwise else 2 if scenario.following == "allow" else 1,
             site=np.zeros(0, dtype=np.uint8),
             vertex=np.zeros(0, dtype=np.uint8),
             entries=np.zeros(0, dtype=np.int32),
@@ -92,28 +94,34 @@ class Reservations:
         )
         self._state[:] = 0
 
-    def make_room(self, rows: int) -> None:
-        """Let the tables have at least `rows` rows.
+    def least_steps(self, distance: int) -> int:
+        """Return how many steps a way that costs so much takes at least."""
+        return distance // int(self._terrain.most_cost)
+
+    def make_room(self, steps: int) -> None:
+        """Let the tables have rows for at least so many steps.
 
         Raises
         ------
         TooLargeError
             If they would take more than the limit.
         """
-        have, size, ends = self._reserved.rows, self.distance.size, self._reserved.ends
-        if rows <= have:
+        per_step, size, ends = max(1, self._reserved.per_tick), self.distance.size, self._reserved.ends
+        have = self._reserved.rows // per_step
+        if steps <= have:
             return
-        rows = max(rows, have + have // 2)
-        need = rows * (size * (1 + self._forbids) + 4 * ends)
+        steps = max(steps, have + have // 2)
+        rows = steps * per_step
+        need = rows * (size + 4 * ends) + steps * size * self._forbids
         if need > self._limit:
             raise TooLargeError(
-                f"reservations would take {need / GIB:.1f} GiB ({rows} steps of {size} cells), more than "
+                f"reservations would take {need / GIB:.1f} GiB ({steps} steps of {size} cells), more than "
                 f"memory_limit, {self._limit / GIB:.1f} GiB; plan fewer robots, a smaller area, or with fcost"
             )
         self._reserved = self._reserved._replace(
             rows=rows,
             site=_grown(self._reserved.site, rows * size),
-            vertex=_grown(self._reserved.vertex, rows * size * self._forbids),
+            vertex=_grown(self._reserved.vertex, steps * size * self._forbids),
             entries=_grown(self._reserved.entries, rows * ends),
         )
 
@@ -133,15 +141,15 @@ class Reservations:
         if status == astar.NOTHING:
             return None
         actions = np.empty(int(self._nodes.step[self._state[astar.GOAL]]), dtype=np.uint8)
-        astar.write_way(self._nodes, self._state, actions)
-        return actions
+        return actions[actions.size - astar.write_way(self._nodes, self._state, actions) :].copy()
 
     def reserve(self, start: int, actions: NDArray[np.uint8]) -> None:
-        """Reserve a way."""
-        from trihex.planners.kernels import reservations
+        """Reserve the way that was found last."""
+        from trihex.planners.kernels import astar, reservations
 
-        self.make_room(actions.size + 1)
-        reservations.reserve(start, actions, self._terrain, self._reserved)
+        self.make_room(int(self._nodes.step[self._state[astar.GOAL]]) + 1)
+        reserve = reservations.reserve_ticks if self._reserved.per_tick else reservations.reserve
+        reserve(start, actions, self._terrain, self._reserved)
 
 
 def _grown(array: NDArray[Any], size: int) -> NDArray[Any]:

@@ -11,8 +11,11 @@ from .playback import (
     make_playback as make_playback,
 )
 from .walk import (
+    Walk as Walk,
     cells_of_rows as cells_of_rows,
     count_marked_moves as count_marked_moves,
-    follow as follow,
+    place_of_action as place_of_action,
+    steps_of_actions as steps_of_actions,
     visits_of as visits_of,
+    waits_by_step as waits_by_step,
 )

@@ -48,7 +48,7 @@ class Arrivals(Record):
     def in_words(self) -> str:
         """Return the planner, the area, how many robots arrive, steps and total time."""
         arrive = f"{np.count_nonzero(self.arrived)} of {counted(self.scenario.robot_count, 'robot')} arrive"
-        times = f"{counted(self.steps, 'step')}, total time {self.total_time}"
+        times = f"{counted(self.steps, self.scenario.step_word)}, total time {self.total_time}"
         return f"{self.planner!r}, {self.scenario.area.in_words()}, {arrive}, {times}"
 
     @property

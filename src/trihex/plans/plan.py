@@ -88,7 +88,7 @@ class Plan(Record):
     def in_words(self) -> str:
         """Return the planner, the area, how many robots arrive, steps and total time."""
         arrive = f"{np.count_nonzero(self.arrived)} of {counted(self.scenario.robot_count, 'robot')} arrive"
-        times = f"{counted(self.steps, 'step')}, total time {self.total_time}"
+        times = f"{counted(self.steps, self.scenario.step_word)}, total time {self.total_time}"
         return f"{self.planner!r}, {self.scenario.area.in_words()}, {arrive}, {times}"
 
     @cached_property
@@ -129,6 +129,18 @@ class Plan(Record):
             given(kernels.Replayed, site=site, distance=distance, waits=waits),
         )
         return read_only(area.layout.site_to_cell(site)), read_only(distance), read_only(waits)
+
+    @cached_property
+    def duration_of_action(self) -> NDArray[np.int32]:
+        """How many steps (ticks) an action lasts, by its byte: a direction, or `WAIT` and `JUMP`, 1; shape (256,)."""
+        duration = np.ones(256, dtype=np.int32)
+        duration[: self.scenario.area.tessellation.direction_count] = self.scenario.duration_of_direction
+        return read_only(duration)
+
+    @cached_property
+    def has_steps(self) -> bool:
+        """Whether every action lasts one step, so that robot r does ``actions[first_action[r] + s]`` in step s + 1."""
+        return bool((self.scenario.duration_of_direction == 1).all())
 
     @property
     def last_cell_of_robot(self) -> NDArray[np.int64]:
@@ -180,22 +192,25 @@ class Plan(Record):
         return int(self.time_of_robot[self.arrived].sum())
 
     def cells_by_step(self) -> Iterator[NDArray[np.int64]]:
-        """Yield the cell of each robot after step 0, 1, ..., `steps`; -1 once it has left the area."""
-        from trihex.plans.kernels import replay as kernels
+        """Yield the cell of each robot after step 0, 1, ..., `steps`; -1 once it has left the area.
 
-        layout, actions = self.scenario.area.layout, self._actions
-        site = layout.cell_to_site(self.scenario.robots)
+        A robot that is on its way, where moves last longer than a step, is in the cell whose centre it left.
+        """
+        from trihex.plans.walk import Walk
+
+        walk = Walk(self)
         arrival = np.where(self.arrived, self.arrival_step_of_robot, np.iinfo(np.int64).max)
         for step in range(self.steps + 1):
-            cells = layout.site_to_cell(site)
+            walk.go_to(step)
+            cells = self.scenario.area.layout.site_to_cell(walk.site)
             np.copyto(cells, -1, where=arrival <= step)
             yield cells
-            kernels.follow(actions, 0, site.size, step, step + 1, site)
 
     def cells_of_robot(self, robot: int) -> NDArray[np.int64]:
-        """Return the path of a robot: numbers of its cells after step 0, 1, ... to its last action.
+        """Return the path of a robot: numbers of its cells at the start and after each of its actions.
 
-        The last is its destination, if it arrives. (x, y) of them are ``area.cell_to_xy(cells)``.
+        The last is its destination, if it arrives. (x, y) of them are ``area.cell_to_xy(cells)``; `ticks_of_robot`
+        tells when it is there.
 
         Raises
         ------
@@ -209,10 +224,8 @@ class Plan(Record):
         >>> make_plan(scenario).cells_of_robot(1).tolist()
         [1, 2, 3]
         """
-        robots, layout = self.scenario.robot_count, self.scenario.area.layout
-        if not is_whole(robot) or not 0 <= robot < robots:
-            raise PlanError(f"robot must be one of 0..{robots - 1}, not {robot!r:.80}")
-        first, last = (int(index) for index in self.first_action[robot : robot + 2])
+        first, last = self._range_of_robot(robot)
+        layout = self.scenario.area.layout
         offset = layout.offset_of_direction.tolist()
         jumps = dict(zip(*(table.tolist() for table in self.jump_tables), strict=True))
         sites = [int(layout.cell_to_site(self.scenario.robots[robot : robot + 1])[0])]
@@ -225,8 +238,32 @@ class Plan(Record):
             sites.append(site)
         return layout.site_to_cell(np.array(sites, dtype=np.int32))
 
+    def ticks_of_robot(self, robot: int) -> NDArray[np.int64]:
+        """Return the steps (ticks) at which a robot is in the cells of `cells_of_robot`: 0, then when each action ends.
+
+        Raises
+        ------
+        PlanError
+            If there is no such robot.
+
+        Examples
+        --------
+        >>> from trihex import Area
+        >>> scenario = Scenario(Area("square", [[0, 0], [0, 0]]), (1, 0), robots=(0, 1), clock="costs")
+        >>> plan_from_lists(scenario, [[WAIT, 4]]).ticks_of_robot(0).tolist()
+        [0, 1, 8]
+        """
+        first, last = self._range_of_robot(robot)
+        return np.cumsum(np.append(0, self.duration_of_action[self.actions[first:last]]), dtype=np.int64)
+
+    def _range_of_robot(self, robot: int) -> tuple[int, int]:
+        robots = self.scenario.robot_count
+        if not is_whole(robot) or not 0 <= robot < robots:
+            raise PlanError(f"robot must be one of 0..{robots - 1}, not {robot!r:.80}")
+        return int(self.first_action[robot]), int(self.first_action[robot + 1])
+
     def sets_at(self, step: int) -> RobotSets:
-        """Return the sets of the paper (section 2.1.1) in step 1, 2, ..., `steps` + 1.
+        """Return the sets of the paper (section 2.1.1) in step 1, 2, ..., `steps` + 1; who is on its way moves.
 
         In the step after the last nobody moves any more: `final` holds all robots that arrive, |final| = n, as the
         paper ends.
@@ -238,18 +275,11 @@ class Plan(Record):
         """
         if not is_whole(step) or not 1 <= step <= self.steps + 1:
             raise PlanError(f"step must be 1..{self.steps + 1}, the last of them after all is done, not {step!r:.80}")
-        length = np.diff(self.first_action)
-        is_final = self.arrived & (length < step)
-        acts = length >= step
-        action = np.full(length.size, WAIT, dtype=np.uint8)
-        action[acts] = self.actions[self.first_action[:-1][acts] + step - 1]
-        is_filled = acts & (action != WAIT)
-        return RobotSets(
-            begin=np.flatnonzero(~is_final),
-            filled=np.flatnonzero(is_filled),
-            waiting=np.flatnonzero(~is_final & ~is_filled),
-            final=np.flatnonzero(is_final),
-        )
+        from trihex.plans.walk import Walk
+
+        walk = Walk(self)
+        walk.skip_to(step - 1)
+        return walk.sets()
 
 
 class RobotSets(NamedTuple):

@@ -24,7 +24,8 @@ class Playback(Record):
     ----------
     plan : Plan
     moving, waiting : int64 arrays
-        Robots that move, and that wait, in the step (the queue); robots that never arrive and do nothing are neither.
+        Robots that are moving, and that wait, in the step (the queue); those that never arrive and do nothing are
+        neither.
     arrived : int64 array
         Robots that have arrived by the end of the step.
     spent : int64 array
@@ -67,6 +68,7 @@ def make_playback(plan: Plan, n_scheme: NScheme) -> Playback:
         actions_of(plan),
         scenario.area.tessellation.cost_of_direction,
         scenario.waiting_cost,
+        plan.duration_of_action,
         plan.arrived,
         n_scheme.distance_of_site,
         given(kernels.StepSums, moving=moving, waiting=waiting, arriving=arriving, spent=spent, lost=lost),

@@ -3,23 +3,105 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.plans.plan import Plan, actions_of
+from trihex.kernels.codes import JUMP, WAIT
+from trihex.plans.plan import Plan, RobotSets, actions_of
 
 # Actions that kernels look at in one call, some 10 ms: Ctrl-C works in between.
 _BUDGET = 10_000_000
 
 
-def follow(plan: Plan, step: int, next_step: int, site: NDArray[np.int32]) -> None:
-    """Move `site` of all robots from one step to another; robots without further actions stay."""
-    from trihex.plans.kernels import replay as kernels
+class Walk:
+    """All robots of a plan, from one step (tick) to a later one.
 
-    actions, some = actions_of(plan), max(1, _BUDGET // (next_step - step))
-    for first in range(0, site.size, some):
-        kernels.follow(actions, first, min(site.size, first + some), step, next_step, site)
+    Parameters
+    ----------
+    plan : Plan
+
+    Attributes
+    ----------
+    step : int
+        Where they are, from 0 on.
+    """
+
+    def __init__(self, plan: Plan) -> None:
+        self.plan, self.step = plan, 0
+        # Where moves last longer than a step, 16 bytes a robot tell which action it does, and since when.
+        self._cursor = None if plan.has_steps else np.stack([plan.first_action[:-1], 0 * plan.first_action[:-1]])
+
+    @cached_property
+    def site(self) -> NDArray[np.int32]:
+        """The site whose centre each robot was at last; whoever has no further actions stays, shape (robots,)."""
+        return self.plan.scenario.area.layout.cell_to_site(self.plan.scenario.robots)
+
+    def go_to(self, step: int) -> None:
+        """Go on to a step that is not before this one."""
+        actions, some = actions_of(self.plan), max(1, _BUDGET // max(1, step - self.step))
+        for first in range(0, self.site.size if step > self.step else 0, some):
+            last = min(self.site.size, first + some)
+            if self._cursor is None:
+                from trihex.plans.kernels.replay import follow
+
+                follow(actions, first, last, self.step, step, self.site)
+            else:
+                from trihex.plans.kernels.ticks import follow_ticks
+
+                follow_ticks(actions, self.plan.duration_of_action, first, last, step, *self._cursor, self.site)
+        self.step = step
+
+    def skip_to(self, step: int) -> None:
+        """Go on as `go_to` does; where actions last one step, without a look at those before: `site` is left behind."""
+        if self._cursor is None:
+            self.step = step
+        else:
+            self.go_to(step)
+
+    @property
+    def action_of_robot(self) -> NDArray[np.uint8]:
+        """What each robot does in the step that follows, `WAIT` for those that have arrived, shape (robots,)."""
+        index, acts = self._index_of_action()
+        action = np.full(index.size, WAIT, dtype=np.uint8)
+        action[acts] = self.plan.actions[index[acts]]
+        return action
+
+    def sets(self) -> RobotSets:
+        """Return the sets of the paper in the step that follows."""
+        is_filled = self.action_of_robot != WAIT
+        is_final = self.plan.arrived & (self.plan.last_step_of_robot <= self.step)
+        return RobotSets(
+            begin=np.flatnonzero(~is_final),
+            filled=np.flatnonzero(is_filled),
+            waiting=np.flatnonzero(~is_final & ~is_filled),
+            final=np.flatnonzero(is_final),
+        )
+
+    def next_site(self) -> NDArray[np.int32]:
+        """Return the site at which each robot is at the end of what it does in the step that follows."""
+        action, site = self.action_of_robot, self.site.copy()
+        moves = np.flatnonzero(action < JUMP)
+        offset = self.plan.scenario.area.layout.offset_of_direction
+        site[moves] += offset[site[moves] & 1, action[moves]]
+        jumps = np.flatnonzero(action == JUMP)
+        jump_at, jump_to = self.plan.jump_tables
+        site[jumps] = jump_to[np.searchsorted(jump_at, self._index_of_action()[0][jumps])]
+        return site
+
+    def done(self, share: float) -> NDArray[np.float64] | float:
+        """Return how much of what each robot does is done after a share of the step that follows, from 0 to 1."""
+        if self._cursor is None:
+            return share
+        duration: NDArray[np.int32] = self.plan.duration_of_action[self.action_of_robot]
+        return np.asarray((self.step - self._cursor[1] + share) / duration)
+
+    def _index_of_action(self) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+        """Return which action of the plan each robot does in the step that follows, and whether it does one at all."""
+        first = self.plan.first_action
+        index = first[:-1] + self.step if self._cursor is None else self._cursor[0]
+        return index, index < first[1:]
 
 
 def visits_of(plan: Plan) -> NDArray[np.int64]:
@@ -42,6 +124,43 @@ def count_marked_moves(plan: Plan, marked: NDArray[np.uint16]) -> int:
     return sum(int(kernels.count_marked(start, actions, robot, last, marked)) for robot, last in _blocks_of(plan))
 
 
+def waits_by_step(plan: Plan) -> NDArray[np.int64]:
+    """Return how many robots wait, by an action of their own, in each step (tick) from 0, with none, to `steps`."""
+    waiting = np.zeros(plan.steps + 1, dtype=np.int64)
+    for robot, last in _blocks_of(plan):
+        own = slice(*plan.first_action[[robot, last]].tolist())
+        ends = steps_of_actions(plan, robot, last)[plan.actions[own] == WAIT]
+        waiting += np.bincount(ends, minlength=waiting.size)
+    return waiting
+
+
+def cells_of_rows(plan: Plan, first_row: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return the cell number of each robot at its start and after each action, robot by robot.
+
+    Robot r has the rows from ``first_row[r]`` on, at least one more than actions; in those beyond it stays.
+    """
+    from trihex.plans.kernels.rows import fill_rows
+
+    layout = plan.scenario.area.layout
+    start, site = layout.cell_to_site(plan.scenario.robots), np.empty(first_row[-1], dtype=np.int32)
+    for robot, last in _blocks_of(plan):
+        fill_rows(start, actions_of(plan), robot, last, first_row, site)
+    return layout.site_to_cell(site)
+
+
+def steps_of_actions(plan: Plan, robot: int = 0, last: int | None = None) -> NDArray[np.int64]:
+    """Return the step (tick) in which each action of a plan, or of some of its robots, ends, shape (actions,)."""
+    first = plan.first_action[robot : None if last is None else last + 1]
+    end = np.cumsum(plan.duration_of_action[plan.actions[first[0] : first[-1]]], dtype=np.int64)
+    return np.asarray(end - np.repeat(np.append(0, end)[first[:-1] - first[0]], np.diff(first)))
+
+
+def place_of_action(plan: Plan, index: int) -> tuple[int, int]:
+    """Return which robot an action is of, and the step (tick) in which it ends."""
+    robot = int(np.searchsorted(plan.first_action, index, side="right")) - 1
+    return robot, int(plan.ticks_of_robot(robot)[index - plan.first_action[robot] + 1])
+
+
 def _blocks_of(plan: Plan) -> Iterator[tuple[int, int]]:
     """Yield robots from, and up to, that have about so many actions together as one call of a kernel takes."""
     first, robot, robots = plan.first_action, 0, plan.scenario.robot_count
@@ -50,14 +169,3 @@ def _blocks_of(plan: Plan) -> Iterator[tuple[int, int]]:
         last = min(robots, last, robot + 1_000_000)
         yield robot, last
         robot = last
-
-
-def cells_of_rows(plan: Plan, first_row: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return the cell number of each robot at each step, robot by robot; robot r from row ``first_row[r]`` on."""
-    cells = np.empty(first_row[-1], dtype=np.int64)
-    length = np.diff(first_row) - 1
-    for step, cell_of_robot in enumerate(plan.cells_by_step()):
-        acts = length >= step
-        cells[first_row[:-1][acts] + step] = cell_of_robot[acts]
-    cells[first_row[1:] - 1] = plan.last_cell_of_robot  # cells_by_step has -1 for those that have arrived
-    return cells

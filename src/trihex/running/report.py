@@ -74,6 +74,8 @@ class RunReport(Record):
             "corners": scenario.corners,
             "crossing": scenario.crossing,
             "destination_capacity": scenario.destination_capacity,
+            "clock": scenario.clock,
+            "following": scenario.following,
             "waiting_cost": int(scenario.waiting_cost),
             "planner": run.planner,
             "sense": None if run.sensor is None else float(run.sensor.radius),

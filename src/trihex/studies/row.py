@@ -19,7 +19,7 @@ from trihex.areas import Scenario
 from trihex.errors import TrihexError
 from trihex.judging import Report
 from trihex.kernels.codes import WAIT
-from trihex.plans import Plan
+from trihex.plans import Plan, waits_by_step
 
 # What a run is to do, plain values by the keys of `study.AXES`; or a `Scenario` in place of all but the planner.
 Case = Mapping[str, Any]
@@ -33,6 +33,7 @@ COLUMNS: dict[str, type] = {
     "waiting_cost": int,
     **dict.fromkeys(("crossing", "corners"), str),
     "destination_capacity": int,
+    **dict.fromkeys(("clock", "following"), str),
     "destinations": str,
     "robots": int,
     "placement": str,
@@ -107,9 +108,7 @@ def row_of_report(report: Report) -> Row:
 
 def _waits(plan: Plan) -> Row:
     """Return how often robots wait, and how many do in the step with the most of them."""
-    length = np.diff(plan.first_action)
-    step = np.arange(plan.actions.size) - np.repeat(plan.first_action[:-1], length)
-    waiting = np.bincount(step[plan.actions == WAIT], minlength=1)
+    waiting = waits_by_step(plan)
     return {"waits": int(waiting.sum()), "most_waiting": int(waiting.max())}
 
 

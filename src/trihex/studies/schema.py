@@ -7,7 +7,7 @@ from typing import Annotated, Any, TypeVar
 
 from pydantic import AfterValidator, BeforeValidator, Field
 
-from trihex.areas import CORNERS, COSTS, CROSSINGS, GENERATORS, NEIGHBOURHOODS, TESSELLATIONS
+from trihex.areas import CLOCKS, CORNERS, COSTS, CROSSINGS, FOLLOWINGS, GENERATORS, NEIGHBOURHOODS, TESSELLATIONS
 from trihex.formats.areas.options import UNKNOWNS
 from trihex.formats.schema import Cells, Count, Number, Points, Table, Whole, choice
 from trihex.studies.placing import DESTINATION_PLACES, ROBOT_PLACEMENTS
@@ -105,6 +105,8 @@ class RulesAxis(Table):
     crossing: Varied[Annotated[str, choice("it", CROSSINGS)]] | None = None
     corners: Varied[Annotated[str, choice("it", CORNERS)]] | None = None
     destination_capacity: Varied[Count] | None = None
+    clock: Varied[Annotated[str, choice("it", CLOCKS)]] | None = None
+    following: Varied[Annotated[str, choice("it", FOLLOWINGS)]] | None = None
 
 
 class DestinationsAxis(Table):

@@ -5,6 +5,9 @@ from .page import (
     PAGE_SUFFIXES as PAGE_SUFFIXES,
     write_page as write_page,
 )
+from .site import (
+    write_site as write_site,
+)
 from .widget import (
     make_widget as make_widget,
 )

@@ -49,9 +49,13 @@ class Call:
             self.check()
             if monotonic() - self._told >= TICK:
                 self._told = monotonic()
-                self._send(encode({"kind": "progress", "stage": stage, "done": int(done), "total": int(total)}))
+                self.tell(stage, done, total)
 
         return tell
+
+    def tell(self, stage: str, done: int, total: int) -> None:
+        """Tell the page how far `stage` is, at once."""
+        self._send(encode({"kind": "progress", "stage": stage, "done": int(done), "total": int(total)}))
 
     def draft(self, request: Request) -> Draft:
         """Return the document of the request."""

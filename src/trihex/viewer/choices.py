@@ -4,10 +4,21 @@ from __future__ import annotations
 
 from typing import Any
 
-from trihex.areas import CORNERS, COSTS, CROSSINGS, GENERATORS, NEIGHBOURHOODS, TESSELLATIONS, Tessellation
+from trihex.areas import (
+    CLOCKS,
+    CORNERS,
+    COSTS,
+    CROSSINGS,
+    FOLLOWINGS,
+    GENERATORS,
+    NEIGHBOURHOODS,
+    TESSELLATIONS,
+    Tessellation,
+)
 from trihex.planners import PLANNERS, options_of
 from trihex.viewer.exports import EXPORTS
 from trihex.viewer.folder import SUFFIXES
+from trihex.viewer.hints import planner_hints
 
 
 def choices() -> dict[str, Any]:
@@ -21,8 +32,11 @@ def choices() -> dict[str, Any]:
         "costs": COSTS,
         "crossings": CROSSINGS,
         "corners": CORNERS,
+        "clocks": CLOCKS,
+        "followings": FOLLOWINGS,
         "generators": ["empty", *GENERATORS],
         "planners": {name: options_of(name) for name in PLANNERS},
+        "hints": planner_hints(),
         "exports": {what: {"suffixes": suffixes, "needs": needs} for what, (suffixes, needs) in EXPORTS.items()},
         "suffixes": SUFFIXES,
     }

@@ -22,7 +22,7 @@ from trihex.bounds import distance_bound, make_lower_bound, slot_bound
 from trihex.errors import FormatError, TooLargeError, TrihexError, check_choice, check_type
 from trihex.fields import distance_generations, make_d_scheme
 from trihex.files import read_bytes
-from trihex.formats import FORMATS, Draft, draft_of, format_of, read_draft, read_plan, read_starts
+from trihex.formats import FORMATS, Draft, draft_of, format_of, read_draft, read_plan, read_run, read_starts
 from trihex.judging import Report, audit_plan, make_report
 from trihex.planners import PLANNERS, make_plan
 from trihex.plans import Plan
@@ -30,16 +30,19 @@ from trihex.running import Run
 from trihex.viewer import requests as ask
 from trihex.viewer.bundle import Bundle, decode, encode
 from trihex.viewer.call import TICK, Call, CancelledError, Send
-from trihex.viewer.document import document_of
+from trihex.viewer.compiling import prepare_for
+from trihex.viewer.document import document_of, ground_of
 from trihex.viewer.exports import export
-from trihex.viewer.folder import Folder, references_of
-from trihex.viewer.live import Live
+from trihex.viewer.folder import Folder, holds_run, references_of
+from trihex.viewer.live import Live, replay_of, trial_of
 from trihex.viewer.shelf import Shelf
 from trihex.viewer.show import show_plan
 
 # The automaton looks at all neighbours of all cells in every generation.
 MAX_AUTOMATON_CELLS = 2**20
 _PLACE = ("cell_size", "robot_radius", "resolution", "threshold", "invert", "unknown")
+
+_IN_METRES = ("ros", "geojson", "wkt")  # formats that say nothing of cells: the page asks how large they shall be
 
 log = logging.getLogger(__name__)
 
@@ -121,6 +124,8 @@ class Desk:
 
     def _opened(self, path: Path, request: ask.OpenFile, call: Call) -> Bundle:
         form = FORMATS[format_of(read_bytes(path), path)]
+        if form.name == "npz" and holds_run(path):
+            return self._watched(read_run(path), call)
         seconds: dict[str, float] = {}
         begin = perf_counter()
         if form.holds == "plan":
@@ -131,11 +136,17 @@ class Desk:
             draft = call.draft(request)
             return _drafted(replace(draft, robots=read_starts(path, draft.area), seed=None))
         options = {name: getattr(request, name) for name in _PLACE}
-        draft = read_draft(path, request.tessellation, progress=call.progress("reading"), **options)
+        try:
+            draft = read_draft(path, request.tessellation, progress=call.progress("reading"), **options)
+        except FormatError as error:
+            if request.cell_size is None and form.name in _IN_METRES and "cell_size" in str(error):
+                return Bundle({"needs": "cell_size", "name": path.name}, {})
+            raise
         return _drafted(_drawn(draft))
 
     def _generate(self, request: ask.Generate, call: Call) -> Bundle:
         check_choice("generator", request.generator, ["empty", *GENERATORS], FormatError)
+        prepare_for(call, *(("area",) if request.generator in ("caves", "maze") else ()))
         if request.generator == "empty":
             make, options = GENERATORS["random"], {"density": 0.0}
         else:
@@ -146,11 +157,17 @@ class Desk:
         return _drafted(Draft(area))
 
     def _scatter(self, request: ask.Scatter, call: Call) -> Bundle:
-        draft = _drawn(replace(call.draft(request), robots=None, random_count=request.count, seed=request.seed))
-        return _drafted(draft)
+        draft = replace(call.draft(request), robots=None, random_count=request.count, seed=request.seed)
+        has_destination = draft.destinations is not None and draft.destinations.size > 0
+        prepare_for(
+            call, "n_scheme", scenario=replace(draft, random_count=None).complete() if has_destination else None
+        )
+        return _drafted(_drawn(draft))
 
     def _fields(self, request: ask.Fields, call: Call) -> Bundle:
-        n_scheme = self.shelf.n_scheme(call.scenario(request))
+        scenario = call.scenario(request)
+        prepare_for(call, "d_scheme", scenario=scenario)
+        n_scheme = self.shelf.n_scheme(scenario)
         directions = make_d_scheme(n_scheme).directions
         arrays: dict[str, NDArray[Any]] = {"distance": n_scheme.distance, "directions": directions}
         return Bundle({"unreachable": int(n_scheme.unreachable_robots.size)}, arrays)
@@ -163,6 +180,7 @@ class Desk:
                 f"generations are shown one by one in areas of at most {MAX_AUTOMATON_CELLS} cells, not "
                 f"{scenario.area.cell_count}; the N-scheme itself is shown in any"
             )
+        prepare_for(call, "generations")
         counts: list[int] = []
         cells: list[NDArray[np.int32]] = []
         values: list[NDArray[np.int32]] = []
@@ -189,6 +207,8 @@ class Desk:
             tessellation = replace(own, name=request.tessellation)
             draft = replace(draft, area=draft.area.with_tessellation(tessellation))
         scenario = draft.complete()
+        check_choice("planner", request.planner, PLANNERS, FormatError)
+        prepare_for(call, request.planner, "audit", "page", scenario=scenario)
         seconds: dict[str, float] = {}
         begin = perf_counter()
         n_scheme = self.shelf.n_scheme(scenario)
@@ -202,11 +222,21 @@ class Desk:
     def _live(self, request: ask.Live, call: Call) -> Bundle:
         check_choice("planner", request.planner, PLANNERS, FormatError)
         scenario = call.scenario(request)
-        live = Live(scenario, request)
+        prepare_for(call, "trial", *((request.planner,) if request.replan else ()), scenario=scenario)
+        return self._begun(Live(trial_of(scenario, request)))
+
+    def _begun(self, live: Live) -> Bundle:
         name = self.shelf.put_live(live)
         first = live.advance(ask.Advance(op="advance", live=name, steps=0))
-        edge, wait = scenario.area.tessellation.edge_cost, int(scenario.waiting_cost)
-        return Bundle({"live": name, "edge_cost": edge, "waiting_cost": wait, **first.header}, first.arrays)
+        return Bundle({"live": name, **first.header}, first.arrays)
+
+    def _watched(self, run: Run, call: Call) -> Bundle:
+        """Return a run as a live one that does again what it did, with its document."""
+        prepare_for(call, "trial", scenario=run.scenario)
+        document, arrays = document_of(draft_of(run.scenario))
+        begun = self._begun(replay_of(run))
+        told = {"sense": None if run.sensor is None else run.sensor.radius, "delays": run.delay, "steps": run.steps}
+        return Bundle({"document": document, "watched": told, **begun.header}, {**arrays, **begun.arrays})
 
     def _advance(self, request: ask.Advance, call: Call) -> Bundle:
         return self.shelf.live(request.live).advance(request)
@@ -241,6 +271,7 @@ class Desk:
         report = self.shelf.report(request.plan)
         scenario = report.plan.scenario
         if not report.optimal:
+            prepare_for(call, "bound", scenario=scenario)
             n_scheme = self.shelf.n_scheme(scenario)
             bound = self.shelf.optimum(scenario) or make_lower_bound(n_scheme, progress=call.progress("bounding"))
             report = replace(report, bound=bound)
@@ -249,6 +280,7 @@ class Desk:
 
     def _shown(self, plan: Plan, seconds: dict[str, float], call: Call) -> Bundle:
         """Return the plan with the bounds that are had at once; the page asks for a better one while it plays."""
+        prepare_for(call, "audit", "page", scenario=plan.scenario)
         n_scheme = self.shelf.n_scheme(plan.scenario)
         begin = perf_counter()
         audit = audit_plan(plan, progress=call.progress("checking"))
@@ -271,7 +303,8 @@ def _drawn(draft: Draft) -> Draft:
 
 def _drafted(draft: Draft) -> Bundle:
     header, arrays = document_of(draft)
-    return Bundle({"document": header, "planner": draft.planner}, arrays)
+    ground, more = ground_of(draft)
+    return Bundle({"document": header, "planner": draft.planner, "ground": ground}, {**arrays, **more})
 
 
 def _joined(

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from math import ceil, sqrt
 from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from trihex.areas import Area, Frame, Tessellation
+from trihex.areas import Area, Frame, RasterGround, Tessellation, usual_following
 from trihex.errors import FormatError, TooLargeError
 from trihex.formats import Draft
 from trihex.viewer.bundle import Bundle
@@ -16,6 +17,8 @@ from trihex.viewer.bundle import Bundle
 # A page holds some 20 bytes a cell and 50 a robot.
 MAX_CELLS = 2**24
 MAX_ROBOTS = 2**21
+MAX_SQUARES = 2**22  # of the ground beneath
+_DRAWN_SQUARE = 0.05  # of a drawing, in edge steps
 
 _Whole = Annotated[int, Field(ge=0, le=2**30)]
 _Side = Annotated[int, Field(ge=1, le=MAX_CELLS)]
@@ -48,6 +51,8 @@ class DocumentHeader(_Strict):
     waiting_cost: _Whole | None = None
     crossing: str = "forbid"
     corners: str = "allow"
+    clock: str = "steps"
+    following: str | None = None
     destination_capacity: Annotated[int, Field(ge=1, le=2**30)] | None = None
     seed: Annotated[int, Field(ge=0, lt=2**53)] | None = None  # JavaScript has no larger whole numbers
 
@@ -87,6 +92,8 @@ def document_of(draft: Draft) -> Bundle:
         "waiting_cost": None if draft.waiting_cost is None else int(draft.waiting_cost),
         "crossing": draft.crossing or "forbid",
         "corners": draft.corners or "allow",
+        "clock": draft.clock or area.tessellation.clock,
+        "following": draft.following or usual_following(area.tessellation, frame),
         "destination_capacity": None if draft.destination_capacity is None else int(draft.destination_capacity),
         "seed": None if draft.seed is None else int(draft.seed),
     }
@@ -96,6 +103,24 @@ def document_of(draft: Draft) -> Bundle:
         "robots": _cells(draft.robots),
     }
     return Bundle(header, arrays)
+
+
+def ground_of(draft: Draft) -> Bundle | tuple[None, dict[str, NDArray[Any]]]:
+    """Return what stands beneath the cells of a draft, 8 squares a byte, for the page to draw; None where nothing does.
+
+    Squares are as large as those of the raster that the area was made from, or larger where there would be too many.
+    """
+    area = draft.area
+    if area.ground is None:
+        return None, {}
+    across, down = area.tessellation.extent(area.height, area.width)
+    finest = area.ground.resolution / area.metres.cell_size if isinstance(area.ground, RasterGround) else _DRAWN_SQUARE
+    square = max(finest, sqrt(across * down / MAX_SQUARES))
+    rows, columns = ceil(down / square), ceil(across / square)
+    east, south = (np.arange(columns) + 0.5) * square, (np.arange(rows)[:, None] + 0.5) * square
+    occupied = area.ground.occupied_at(*area.metres.point_to_metres(east, south))
+    header = {"rows": rows, "columns": columns, "square": square, "corner": [0.0, 0.0]}
+    return Bundle(header, {"ground": np.packbits(occupied)})
 
 
 def draft_of_document(header: Any, arrays: dict[str, NDArray[Any]]) -> Draft:
@@ -136,6 +161,8 @@ def draft_of_document(header: Any, arrays: dict[str, NDArray[Any]]) -> Draft:
         waiting_cost=parsed.waiting_cost,
         crossing=parsed.crossing,
         corners=parsed.corners,
+        clock=parsed.clock,
+        following=parsed.following,
         destination_capacity=parsed.destination_capacity,
     )
 

@@ -7,6 +7,7 @@ import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
+from zipfile import BadZipFile, ZipFile
 
 from trihex.errors import FormatError, check_path
 from trihex.files import MAX_BYTES, read_bytes
@@ -94,6 +95,15 @@ class Folder:
         for entry in entries:
             if entry.is_dir(follow_symlinks=False) and depth < _MOST_DEPTH and not entry.name.startswith((".", "_")):
                 yield from self._walk(Path(entry.path), depth + 1)
+
+
+def holds_run(path: Path) -> bool:
+    """Tell whether an archive holds a run, not a plan; what is no archive, its reader will tell."""
+    try:
+        with ZipFile(path) as archive:
+            return "run_actions.npy" in archive.namelist()
+    except (BadZipFile, OSError, ValueError):
+        return False
 
 
 def references_of(path: Path) -> list[str]:

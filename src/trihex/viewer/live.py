@@ -22,33 +22,43 @@ HIDDEN, MOVING, WAITING, FINAL, STRANDED, LATE_SET = range(6)
 MOST_ACTIONS = 2**29
 
 
+def trial_of(scenario: Scenario, request: ask.Live) -> Trial:
+    """Return the trial that a page asks for; raises what `Trial` does."""
+    sense, tessellation = request.sense, scenario.area.tessellation
+    return Trial(
+        scenario,
+        request.planner,
+        replan=request.replan,
+        budget=request.budget,
+        sensor=None if sense is None else Sensor(tessellation, sense, request.line_of_sight),
+        delay=request.delays,
+        seed=scenario.seed or 0,
+    )
+
+
+def replay_of(run: Run) -> Live:
+    """Return a run as it can be watched again, from its first step, with all that happened."""
+    events = [occurrence.event for occurrence in run.occurrences]
+    trial = Trial(run.scenario, run.planner, sensor=run.sensor, delay=run.delay, seed=run.seed, events=events)
+    return Live(trial, run.actions)
+
+
 class Live:
     """A trial and what the page has been told of it; each answer tells what is new.
 
     Parameters
     ----------
-    scenario : Scenario
-    request : Live
-        Who decides, what robots see, how often they are late.
-
-    Raises
-    ------
-    TrihexError
-        As `Trial` does.
+    trial : Trial
+        Before its first step.
+    recorded : uint8 array, shape (steps, robots), optional
+        What robots did in a run that is watched again. When that is over, or the page has let something happen, they
+        go on by themselves.
     """
 
-    def __init__(self, scenario: Scenario, request: ask.Live) -> None:
-        tessellation = scenario.area.tessellation
-        sensor = None if request.sense is None else Sensor(tessellation, request.sense, request.line_of_sight)
-        self.trial = Trial(
-            scenario,
-            request.planner,
-            replan=request.replan,
-            budget=request.budget,
-            sensor=sensor,
-            delay=request.delays,
-            seed=scenario.seed or 0,
-        )
+    def __init__(self, trial: Trial, recorded: NDArray[np.uint8] | None = None) -> None:
+        self.trial = trial
+        scenario, tessellation = trial.scenario, trial.area.tessellation
+        self._recorded = np.empty((0, 0), dtype=np.uint8) if recorded is None else recorded
         self._lock = Lock()
         cost = np.full(256, scenario.waiting_cost, dtype=np.int64)
         cost[: tessellation.direction_count] = tessellation.cost_of_direction
@@ -70,6 +80,8 @@ class Live:
         """
         with self._lock:
             trial, told = self.trial, len(self.trial.occurrences)
+            if request.events:
+                self._recorded = self._recorded[: trial.steps_done]
             for event in [Event(trial.steps_done + 1, **one.model_dump()) for one in request.events]:
                 trial.tell(event)
             trial.catch_up()
@@ -83,8 +95,11 @@ class Live:
             return self._news(told)
 
     def _step(self) -> None:
+        self.trial.catch_up()  # in a run that is watched, others may join
+        self._note_events()
         was_going = self.trial.execution.state_of_robot == GOING
-        action = self.trial.step()
+        done = self.trial.steps_done
+        action = self.trial.step(self._recorded[done] if done < len(self._recorded) else None)
         state = self.trial.execution.state_of_robot
         self._spent += int(self._cost[action[was_going]].sum())
         self._sets = np.select(
@@ -126,6 +141,7 @@ class Live:
             "touched": trial.repairs[1],
             "milliseconds": [float(milliseconds[-1]), float(np.median(milliseconds)), float(milliseconds.max())],
             "known": float(trial.known.mean()),
+            "broken": int(np.count_nonzero(state == BROKEN)),
             "is_over": trial.is_over,
             "refused": [{"kind": one.event.kind, "cell": one.event.cell, "why": one.refusal} for one in refused[:100]],
             "refused_count": len(refused),

@@ -32,7 +32,7 @@ _POLICY = (
 
 def settings_of(**more: Any) -> dict[str, Any]:
     """Return what every page needs to know: colours, and what `more` says of its host."""
-    names = ("FREE", "BARRIER", "DESTINATION", "UNREACHED", "MOVING", "WAITING", "FINAL", "STRANDED", "INK")
+    names = ("FREE", "BARRIER", "DESTINATION", "UNREACHED", "MOVING", "WAITING", "FINAL", "STRANDED", "TIGHT", "INK")
     ramp = palette.distance_ramp(256).tolist()
     series = [list(colour) for colour in palette.SERIES]
     colours = {name.lower(): list(getattr(palette, name)) for name in names}
@@ -40,7 +40,9 @@ def settings_of(**more: Any) -> dict[str, Any]:
     return {"colours": {**colours, **fog, "distance": ramp, "series": series}, **more}
 
 
-def page_with(settings: dict[str, Any], first: Bundle | None, title: str, *, is_alone: bool) -> tuple[str, str]:
+def page_with(
+    settings: dict[str, Any], first: Bundle | None, title: str, *, is_alone: bool, is_site: bool = False
+) -> tuple[str, str]:
     """Return the HTML of a page and the Content-Security-Policy that it obeys.
 
     Parameters
@@ -52,6 +54,8 @@ def page_with(settings: dict[str, Any], first: Bundle | None, title: str, *, is_
     title : str
     is_alone : bool
         Whether the page holds the module and its policy itself, and asks nobody for anything.
+    is_site : bool
+        Whether it holds its policy itself, as nobody sends it as a header.
     """
     style, script = source_of("viewer.css"), module()
     policy = _POLICY.format(
@@ -60,7 +64,7 @@ def page_with(settings: dict[str, Any], first: Bundle | None, title: str, *, is_
         connect="'none'" if is_alone else "'self'",
     )
     content = "" if first is None else b64encode(gzip.compress(encode(*first), 6, mtime=0)).decode()
-    head = f'<meta http-equiv="Content-Security-Policy" content="{policy}">' if is_alone else ""
+    head = f'<meta http-equiv="Content-Security-Policy" content="{policy}">' if is_alone or is_site else ""
     element = (
         f'<script type="module">{script}</script>' if is_alone else '<script type="module" src="viewer.js"></script>'
     )

@@ -29,7 +29,7 @@ def show_plan(report: Report, n_scheme: NScheme, name: str = "") -> Bundle:
     plan, scenario = report.plan, report.plan.scenario
     if plan.actions.size > MAX_ACTIONS:
         raise TooLargeError(f"the viewer plays at most {MAX_ACTIONS} robot steps, not {plan.actions.size}")
-    layout, tessellation = scenario.area.layout, scenario.area.tessellation
+    layout, tessellation, frame = scenario.area.layout, scenario.area.tessellation, scenario.area.frame
     document, arrays = document_of(draft_of(scenario))
     playback = make_playback(plan, n_scheme)
     jump_at, jump_to = plan.jump_tables
@@ -40,11 +40,13 @@ def show_plan(report: Report, n_scheme: NScheme, name: str = "") -> Bundle:
         "conflicts": [{"step": c.step, "text": str(c)} for c in report.audit.conflicts[:_MOST_CONFLICTS]],
         "steps": plan.steps,
         "edge_cost": tessellation.edge_cost,
+        "seconds_per_step": frame and tessellation.longest_move * frame.cell_size,  # at 1 m/s, as in waypoints
         "layout": {
             "origin": layout.origin,
             "pitch": layout.pitch,
             "offsets": layout.offset_of_direction.tolist(),
             "costs": tessellation.cost_of_direction.tolist(),
+            "durations": tessellation.duration_of_direction.tolist(),
             "names": tessellation.direction_names,
         },
     }

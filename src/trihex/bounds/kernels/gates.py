@@ -28,8 +28,11 @@ class Surroundings(NamedTuple):
     near_robot: OUT_I32
     robot_steps: OUT_I32  # likewise
     count: OUT_I64
-    steps: OUT_I32  # of each node; -1 at all of them before and after
-    queue: OUT_I32  # nodes
+    steps: OUT_I32  # of each node, in ticks; -1 at all of them before and after
+    queue: OUT_I32  # nodes, a line for each duration of moves: each of them is in order of steps
+    when: OUT_I32  # steps of each of them; a node that was reached sooner since stands in another line, too
+    head: OUT_I64  # the first of each line
+    tail: OUT_I64  # and its end
 
 
 LANDMARKS, SURROUNDINGS = declared(Landmarks), declared(Surroundings)
@@ -58,52 +61,70 @@ def _is_end(gate, node, is_destination, landmarks, found):
 
 
 @HELPER
-def _enter(gate, node, steps, tail, gate_of_node, found):
-    """Put a node into the queue unless it has been there or belongs to the gate under way; return the new tail."""
-    if found.steps[node] >= 0 or (gate >= 0 and gate_of_node[node] == gate):
-        return tail
+def _enter(gate, node, steps, line, gate_of_node, found):
+    """Put a node into a line, unless it has been reached as soon or belongs to the gate under way."""
+    if 0 <= found.steps[node] <= steps or (gate >= 0 and gate_of_node[node] == gate):
+        return
     found.steps[node] = steps
+    tail = found.tail[line]
     found.queue[tail] = node
-    return tail + 1
+    found.when[tail] = steps
+    found.tail[line] = tail + 1
 
 
 @HELPER
-def _go_on(gate, site, tail, graph, gate_of_node, found):
-    """Enter the nodes to which moves from a site lead, of lattice vertices only gates; return the new tail."""
-    steps = found.steps[site] + 1
+def _nearest_line(found):
+    """Return the line whose first node is the nearest, -1 if all are empty."""
+    best, least = np.int64(-1), np.int64(0)
+    for line in range(len(found.head)):
+        head = found.head[line]
+        if head < found.tail[line] and (best < 0 or found.when[head] < least):
+            best, least = np.int64(line), np.int64(found.when[head])
+    return best
+
+
+@HELPER
+def _go_on(gate, site, graph, gate_of_node, found):
+    """Enter the nodes to which moves from a site lead, of lattice vertices only gates."""
+    steps = found.steps[site]
     bits = graph.moves[site]
     # Two loops: one that asks at each move whether it passes a vertex takes 10 % longer.
     for k in range(graph.first_vertex_move):
         if bits >> k & 1:
-            tail = _enter(gate, site + graph.offset[site & 1, k], steps, tail, gate_of_node, found)
+            node = site + graph.offset[site & 1, k]
+            _enter(gate, node, steps + graph.duration[k], graph.line[k], gate_of_node, found)
     for k in range(graph.first_vertex_move, graph.offset.shape[1]):
         if bits >> k & 1:
-            node = len(graph.moves) + site + graph.vertex[site & 1, k]
+            node, line = len(graph.moves) + site + graph.vertex[site & 1, k], graph.vertex_line
+            duration = graph.vertex_duration
             if gate_of_node[node] < 0:
-                node = site + graph.offset[site & 1, k]
-            tail = _enter(gate, node, steps, tail, gate_of_node, found)
-    return tail
+                node, line, duration = site + graph.offset[site & 1, k], np.int64(graph.line[k]), graph.duration[k]
+            _enter(gate, node, steps + duration, line, gate_of_node, found)
 
 
 @kernel(types.void(types.int64, IN_I32, NODE_GRAPH, LANDMARKS, SURROUNDINGS))
 def look_around(gate, starts, graph, landmarks, found):
-    """Search in breadth around `gate` (-1: around destinations) from the sites `starts`.
+    """Search around `gate` (-1: around destinations) from the sites `starts`, the nearest first.
 
     It passes neither other gates nor destinations.
     """
     count, queue = found.count, found.queue
     count[GATES] = count[ROBOTS] = 0
     count[OUT] = -1
-    head = tail = np.int64(0)
+    for line in range(len(found.head)):
+        found.head[line] = found.tail[line] = line * len(found.steps)
     for site in starts:
-        found.steps[site] = 0
-        queue[tail] = site
-        tail += 1
-    while head < tail:
+        _enter(np.int64(-1), site, np.int32(0), np.int64(0), landmarks.gate_of_node, found)
+    line = _nearest_line(found)
+    while line >= 0:
+        head = found.head[line]
+        found.head[line] = head + 1
         node = np.int64(queue[head])
-        head += 1
-        if landmarks.is_special[node] and _is_end(gate, node, graph.is_destination, landmarks, found):
-            continue
-        tail = _go_on(gate, node, tail, graph, landmarks.gate_of_node, found)
-    for i in range(tail):
-        found.steps[queue[i]] = -1
+        if found.steps[node] == found.when[head] and not (
+            landmarks.is_special[node] and _is_end(gate, node, graph.is_destination, landmarks, found)
+        ):
+            _go_on(gate, node, graph, landmarks.gate_of_node, found)
+        line = _nearest_line(found)
+    for line in range(len(found.head)):
+        for i in range(line * len(found.steps), found.tail[line]):
+            found.steps[queue[i]] = -1

@@ -23,10 +23,11 @@ PEDESTRIANS = declared(Pedestrians)
 
 @HELPER
 def _choose(robot, step, here, graph):
-    """Return a direction of fewest steps; ties are broken by a hash of robot and step."""
+    """Return a direction of a shortest way; ties are broken by a hash of robot and step."""
     best, least = np.int64(-1), np.int64(0)
+    most = graph.steps[here]
     for k in range(graph.offset.shape[1]):
-        if graph.moves[here] >> k & 1 and graph.steps[here + graph.offset[here & 1, k]] < graph.steps[here]:
+        if graph.moves[here] >> k & 1 and graph.steps[here + graph.offset[here & 1, k]] + graph.duration[k] <= most:
             lot = (robot * 40503 + step * 30011 + k * 9973) * 2654435761 >> 16 & 65535
             if best < 0 or lot < least:
                 best, least = np.int64(k), np.int64(lot)

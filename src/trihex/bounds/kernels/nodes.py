@@ -1,4 +1,4 @@
-"""Nodes: places that but one robot may pass in a step.
+"""Nodes: places that but one robot may pass at a time.
 
 A *node* is a site, or ``size + vertex`` for a lattice vertex, where crossing is forbidden; `size` is the number of
 sites. A move from a site that passes such a vertex leads to the vertex first, then on to the site behind it.
@@ -14,7 +14,7 @@ from trihex.kernels.signatures import HELPER, IN_BOOL, IN_I32, IN_U16, TABLE_I32
 class NodeGraph(NamedTuple):
     """Which nodes can be entered from which."""
 
-    steps: IN_I32  # from each site to the nearest destination, -1: none can be reached
+    steps: IN_I32  # from each site to the nearest destination, in ticks; -1: none can be reached
     is_destination: IN_BOOL  # of each site
     moves: IN_U16  # of each site: bit k is set where direction k may be taken
     offset: TABLE_I32  # what a direction adds to a site, by parity of the site
@@ -22,6 +22,10 @@ class NodeGraph(NamedTuple):
     ring: IN_I32  # what to add to a vertex for the sites around it
     via: IN_U16  # of each of these sites: the moves that pass the vertex, in the bits of `moves`
     first_vertex_move: types.int64  # directions from this one on lead to a vertex
+    duration: IN_I32  # of each direction: how many ticks a move lasts
+    line: IN_I32  # of each direction: which of all different durations that is
+    vertex_duration: types.int64  # of the shortest move that passes a vertex
+    vertex_line: types.int64  # which of the durations that is
 
 
 NODE_GRAPH = declared(NodeGraph)

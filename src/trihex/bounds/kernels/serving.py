@@ -1,8 +1,13 @@
 """How soon robots can arrive at best, if they hinder each other at certain gates only.
 
-A gate passes one robot in each step; everywhere else there is room for all. A *slot* is a gate in a step,
-``gate * width + step``, where `width` is the number of steps looked at. Slots that can be opened in order form a
-matroid, so the number served by each step is the largest possible.
+A gate passes one robot in each *window*, ``gap[gate]`` ticks long; everywhere else there is room for all. A *slot* is a
+gate in a window, ``gate * width + window``, where `width` is the number of windows looked at. Slots that can be opened
+in order form a matroid, so the number served by each tick is the largest possible. Where moves last one step and others
+may follow at once, windows and ticks are steps.
+
+The windows of a gate are shifted by how far it lies from the destinations, so that window w is that of robots which
+would arrive from ``w * gap`` on if nothing held them up any more. What is called steps here is what they have lost by
+then: `arc_steps` on the way from gate to gate, `steps_out` after the last.
 
 Searches look for *ins* (who might enter a slot) and *outs* (what leaves it); as *halves* the out of a slot bears its
 number, the in that plus the number of slots, so that outs, which are looked at most, lie close together.
@@ -26,24 +31,26 @@ from trihex.kernels.signatures import (
 
 SINK = -2
 DEAD = 2**31 - 1
-# Entries of `state`: the step under way; robots served; the sum of their steps; looks in all; the number of the search
-# under way; of this search: halves found, height of its stack.
-STEP, SERVED, TOTAL, LOOKS, STAMP, FOUND, HEIGHT = range(7)
+# Entries of `state`: the tick under way; robots served; looks in all; the number of the search under way; of this
+# search: halves found, height of its stack.
+STEP, SERVED, LOOKS, STAMP, FOUND, HEIGHT = range(6)
 _NONE = np.int64(-1)
 
 
 class Gates(NamedTuple):
     """Gates, the steps between them, and the steps from the robots to them: see `GateNetwork`."""
 
+    gap: IN_I32  # how many ticks a window of each gate is long
     steps_out: IN_I32  # from each gate to a destination, -1: each way passes another gate
     first_arc: IN_I64  # gate g is entered by the arcs first_arc[g] .. first_arc[g + 1] - 1
     arc_gate: IN_I32  # from which gate
     arc_steps: IN_I32  # how many steps later
     first_robot: IN_I64  # likewise by robots, the nearest first
     robot: IN_I32
-    robot_steps: IN_I32
+    robot_window: IN_I32  # the first in which it can be there
     robots: types.int64  # how many robots there are in the lists
-    width: types.int64  # steps looked at
+    width: types.int64  # windows of a gate that slots are numbered by
+    horizon: types.int64  # the last tick to look at
 
 
 class GateSlots(NamedTuple):
@@ -53,6 +60,7 @@ class GateSlots(NamedTuple):
     onward: OUT_I32  # of each slot: the slot that the robot enters next, `SINK` for a destination
     first_slot: OUT_I32  # of each robot: the first slot that it passes, -1: not served
     next_unserved: OUT_I64  # of each gate: where in its list of robots the first may be that is not served
+    arrival: OUT_I32  # the ticks in which robots arrive, ascending
 
 
 class GateSearch(NamedTuple):
@@ -63,7 +71,7 @@ class GateSearch(NamedTuple):
     parent: OUT_I32  # from which of them each was found, -1: the first
     changed: OUT_I32  # for which robot, if it is an in found from another
     stack: OUT_I32  # those from which to look on
-    reach: OUT_I32  # of each gate: the last step for which all who might enter it have been looked at
+    reach: OUT_I32  # of each gate: the last window for which all who might enter it have been looked at
     next_robot: OUT_I64  # of each gate: robots up to this one in its list have been looked at
     dead_reach: OUT_I32  # `reach` by all searches that failed
     dead_robot: OUT_I64  # likewise `next_robot`
@@ -98,22 +106,25 @@ def _look_from_out(slot, at, slots, search, state):
 
 @HELPER
 def _is_awaited(gate, when, gates, slots):
-    """Tell whether a robot that is not served yet can be in a gate at this step."""
+    """Tell whether a robot that is not served yet can be in a gate in this window."""
     at, end = slots.next_unserved[gate], gates.first_robot[gate + 1]
     while at < end and slots.first_slot[gates.robot[at]] >= 0:
         at += 1
     slots.next_unserved[gate] = at
-    return at < end and gates.robot_steps[at] <= when
+    return at < end and gates.robot_window[at] <= when
 
 
 @HELPER
 def _look_at_arcs(gate, when, at, gates, search, state):
-    """See the outs of slots from which a gate can be entered at step `when`, if not at the last one looked at."""
+    """See the outs of slots from which a gate can be entered in window `when`, if not in the last one looked at."""
+    # The first tick that is too late, by now and when it was looked at last.
+    end = (when + 1) * np.int64(gates.gap[gate])
+    seen_end = (search.reach[gate] + 1) * np.int64(gates.gap[gate])
     for arc in range(gates.first_arc[gate], gates.first_arc[gate + 1]):
-        steps = np.int64(gates.arc_steps[arc])
+        steps, gap = np.int64(gates.arc_steps[arc]), np.int64(gates.gap[gates.arc_gate[arc]])
         slot_at_0 = np.int64(gates.arc_gate[arc]) * gates.width
-        first = slot_at_0 + max(np.int64(0), search.reach[gate] + 1 - steps)
-        last = slot_at_0 + when - steps
+        first = slot_at_0 + max(np.int64(0), (seen_end - steps - 1) // gap + 1)
+        last = slot_at_0 + (end - steps - 1) // gap
         state[LOOKS] += max(np.int64(0), last + 1 - first)
         for slot in range(first, last + 1):
             _see(slot, at, search, state)
@@ -121,13 +132,13 @@ def _look_at_arcs(gate, when, at, gates, search, state):
 
 @HELPER
 def _look_at_robots(gate, when, at, gates, slots, search, state):
-    """See the ins by which served robots begin that can be in a gate at step `when`, and go elsewhere now."""
+    """See the ins by which served robots begin that can be in a gate in window `when`, and go elsewhere now."""
     # Most looks are spent here; so it is asked here already who has been seen, and by indices that cannot be negative:
     # together 15 % of all.
     first_in, stamp = len(slots.onward), state[STAMP]
     first, end = search.next_robot[gate], gates.first_robot[gate + 1]
     i = first
-    while i < end and gates.robot_steps[i] <= when:
+    while i < end and gates.robot_window[i] <= when:
         slot = np.int64(slots.first_slot[np.uint64(gates.robot[i])])
         if slot >= 0 and search.seen[np.uint64(first_in + slot)] < stamp:
             search.changed[state[FOUND]] = gates.robot[i]
@@ -208,19 +219,19 @@ def _serve(at, root, gates, slots, search):
 
 @kernel(types.void(GATES, GATE_SLOTS, GATE_SEARCH, OUT_I64, types.int64))
 def serve_robots(gates, slots, search, state, budget):
-    """Serve as many robots as possible by each step in turn, about `budget` looks long or until all are served.
+    """Serve as many robots as possible by each tick in turn, about `budget` looks long or until all are served.
 
-    In step T, from every gate g that leads to a destination in ``steps_out[g]`` steps, a search runs back from slot
-    (g, T - steps_out[g]) along residual arcs for a robot that is not served yet.
+    In tick T, from every gate g that leads to a destination in ``steps_out[g]`` steps and whose window begins at
+    T - steps_out[g], a search runs back from that slot along residual arcs for a robot that is not served yet.
     """
     most_looks = state[LOOKS] + budget
-    while state[SERVED] < gates.robots and state[STEP] + 1 < gates.width and state[LOOKS] < most_looks:
+    while state[SERVED] < gates.robots and state[STEP] < gates.horizon and state[LOOKS] < most_looks:
         state[STEP] += 1
         for gate in range(len(gates.steps_out)):
-            when = state[STEP] - gates.steps_out[gate]
-            if gates.steps_out[gate] < 0 or when < 0 or state[SERVED] == gates.robots:
+            begin, gap = state[STEP] - gates.steps_out[gate], np.int64(gates.gap[gate])
+            if gates.steps_out[gate] < 0 or begin < 0 or begin % gap or state[SERVED] == gates.robots:
                 continue
-            root = gate * gates.width + when
+            root = gate * gates.width + begin // gap
             if search.seen[root] == DEAD:
                 continue
             at = _find_robot(root, gates, slots, search, state)
@@ -228,5 +239,5 @@ def serve_robots(gates, slots, search, state, budget):
                 _give_up(search, state)
             else:
                 _serve(at, root, gates, slots, search)
+                slots.arrival[state[SERVED]] = state[STEP]
                 state[SERVED] += 1
-                state[TOTAL] += state[STEP]

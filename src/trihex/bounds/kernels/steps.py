@@ -2,18 +2,16 @@
 
 from numba import types
 
-from trihex.kernels.signatures import IN_I32, IN_U16, OUT_BOOL, OUT_I32, OUT_I64, TABLE_I32, kernel
+from trihex.kernels.signatures import IN_I32, IN_I64, IN_U16, OUT_BOOL, OUT_I32, OUT_I64, TABLE_I32, kernel
 
 
-@kernel(types.int64(OUT_I64, types.int64))
-def queue_up(slots, width):
-    """Delay sorted `slots` until each number occurs at most `width` times; return their sum."""
-    total = 0
+@kernel(types.void(OUT_I64, IN_I64, IN_I64))
+def queue_up(slots, places, apart):
+    """Delay sorted `slots` until each is ``apart[j]`` later than the one ``places[j]`` places before it, for all j."""
     for i in range(len(slots)):
-        if i >= width and slots[i] <= slots[i - width]:
-            slots[i] = slots[i - width] + 1
-        total += slots[i]
-    return total
+        for j in range(len(places)):
+            if i >= places[j]:
+                slots[i] = max(slots[i], slots[i - places[j]] + apart[j])
 
 
 @kernel(types.void(IN_U16, TABLE_I32, IN_I32, OUT_I32, OUT_I32, OUT_BOOL, OUT_I64, types.int64))

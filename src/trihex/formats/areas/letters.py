@@ -21,7 +21,7 @@ _KIND_OF_LETTER = np.full(256, 255, dtype=np.uint8)
 _KIND_OF_LETTER[[*b".BD", *_ROBOTS]] = [*b".BD", *_ROBOTS]  # every known letter is a kind of its own
 _KIND_OF_LETTER[ord("#")] = ord("B")
 _SHAPE = ("name", "neighbourhood", "costs")
-_RULES = ("waiting_cost", "crossing", "corners", "destination_capacity")
+_RULES = ("waiting_cost", "crossing", "corners", "destination_capacity", "clock", "following")
 _KNOWN = ". (free), B or # (barrier), D (destination), a to z (robots)"
 
 

@@ -27,6 +27,7 @@ class PlanTable(NamedTuple):
 
     start: IN_I32  # the site in which each robot starts
     cost: IN_I32  # of each direction
+    duration: IN_I32  # of each action, by its byte
     waiting_cost: types.int64
     origin: types.int64  # the site of cell (0, 0)
     pitch: types.int64  # from a row of sites to the next
@@ -78,22 +79,23 @@ def _price_of(action, table):
 def write_plan_rows(table, actions, spelling, state, text):
     """Fill `text` with rows ``robot,step,x,y,action,time`` and return its length, 0 when all are written.
 
-    The words are the directions of parity 0, those of parity 1, then start, wait, jump. `state` holds robot, step, site
-    and time of where to go on, zeros before the first call.
+    The words are the directions of parity 0, those of parity 1, then start, wait, jump. `state` holds robot, number of
+    actions done, site, time and step of where to go on, zeros before the first call.
     """
     directions = actions.offset.shape[1]
-    robot, step, site, time = state[0], state[1], state[2], state[3]
+    robot, done, site, time, step = state[0], state[1], state[2], state[3], state[4]
     at = types.int64(0)
     while robot < len(table.start) and at + LONGEST_ROW <= len(text):
-        if step == 0:
+        if done == 0:
             site = types.int64(table.start[robot])
-            time = 0
+            time, step = 0, 0
             word = 2 * directions
         else:
-            i = actions.first[robot] + step - 1
+            i = actions.first[robot] + done - 1
             action = actions.action[i]
             word = _word_of(action, site, directions)
             time += _price_of(action, table)
+            step += table.duration[action]
             site = site_after(site, i, actions)
         place = site - table.origin
         for number in (robot, step, place % table.pitch, place // table.pitch):
@@ -105,11 +107,11 @@ def write_plan_rows(table, actions, spelling, state, text):
         at = _put_number(text, at + 1, time)
         text[at] = NEWLINE
         at += 1
-        step += 1
-        if actions.first[robot] + step > actions.first[robot + 1]:
+        done += 1
+        if actions.first[robot] + done > actions.first[robot + 1]:
             robot += 1
-            step = 0
-    state[0], state[1], state[2], state[3] = robot, step, site, time
+            done = 0
+    state[0], state[1], state[2], state[3], state[4] = robot, done, site, time, step
     return at
 
 

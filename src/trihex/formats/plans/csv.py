@@ -1,10 +1,10 @@
-"""Plan as CSV: one row for each robot and step, from 0 to its arrival."""
+"""Plan as CSV: one row for each robot and action, from its start to its arrival."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,9 +30,10 @@ def words_of_actions(tessellation: Tessellation) -> list[str]:
 def write_plan_csv(
     plan: Plan, path: str | os.PathLike[str], *, progress: Callable[[int, int], None] | None = None
 ) -> None:
-    """Write header `robot,step,x,y,action,time` and a row for each robot and step.
+    """Write header `robot,step,x,y,action,time` and a row for each robot and action.
 
-    x, y is the cell after the step, time the running t_r. A robot that cannot arrive, or starts on a destination, has
+    step is that in which the action ends, x, y the cell after it, time the running t_r. Where moves last as long as
+    they cost, steps are ticks and rise by more than one. A robot that cannot arrive, or starts on a destination, has
     its row of step 0 only. Area, destinations and rules are not kept: whoever reads the file must name them again.
     """
     from trihex.formats.kernels import table_text
@@ -43,11 +44,12 @@ def write_plan_csv(
         table_text.PlanTable,
         start=layout.cell_to_site(plan.scenario.robots),
         cost=tessellation.cost_of_direction,
+        duration=plan.duration_of_action,
         waiting_cost=plan.scenario.waiting_cost,
         origin=layout.origin,
         pitch=layout.pitch,
     )
-    state = np.zeros(4, dtype=np.int64)
+    state = np.zeros(5, dtype=np.int64)
     text = np.empty(_BUFFER, dtype=np.uint8)
     with new_file(path) as part, open(part, "wb") as file:
         file.write(f"{PLAN_HEADER}\n".encode())
@@ -84,7 +86,8 @@ def parse_plan_csv(
     ------
     FormatError
         If a line is not of the form, a cell lies outside the area, a robot or step is missing or there twice, or a
-        time does not follow from the moves at the costs of `scenario`; the message names the line.
+        step or time does not follow from the moves by the clock and the costs of `scenario`; the message names the
+        line.
     """
     words = words_of_actions(scenario.area.tessellation)
     return plan_of_table(parse_table(text, path, PLAN_HEADER, {"action": words}, progress), scenario, path)
@@ -100,14 +103,14 @@ def plan_of_table(table: NDArray[np.int64], scenario: Scenario, path: object) ->
     if order is not None:
         table, line = table[:, order], line[order]
     robot, step, x, y, word, time = table
-    is_start = _check_steps(robot, step, line, path)
-
     start, wait = len(words) - 3, len(words) - 2
+    actions, said = _actions(tessellation, x, y, word, wait)
+    is_start = _check_steps(robot, step, said, scenario, line, path)
     _check_rows(
         is_start != (word == start), "action must be 'start' at step 0, and only there", words, word, line, path
     )
     _check_rows(is_start & (time != 0), "time must be 0 at step 0", time, time, line, path)
-    actions, cost = _actions(tessellation, x, y, word, wait)
+    cost = _by_action(tessellation.cost_of_direction, 0)[actions]
     wrong = (
         ~is_start
         & (actions != JUMP)
@@ -142,13 +145,19 @@ def _order(table: NDArray[np.int64]) -> NDArray[np.int64] | None:
 
 
 def _check_steps(
-    robot: NDArray[np.int64], step: NDArray[np.int64], line: NDArray[np.int64], path: object
+    robot: NDArray[np.int64],
+    step: NDArray[np.int64],
+    said: NDArray[np.int64],
+    scenario: Scenario,
+    line: NDArray[np.int64],
+    path: object,
 ) -> NDArray[np.bool_]:
-    """Return which rows begin a robot; raise unless robots count up from 0, and the steps of each do."""
+    """Return which rows begin a robot; raise unless robots count up from 0, and steps as their actions last."""
     before_robot, before_step = np.append(-1, robot[:-1]), np.append(-1, step[:-1])
     begins = np.asarray(robot != before_robot)
     begins[:1] = True
-    wrong = np.where(begins, (robot != before_robot + 1) | (step != 0), step != before_step + 1)
+    lasts = _by_action(scenario.duration_of_direction, 1)[said]
+    wrong = np.where(begins, (robot != before_robot + 1) | (step != 0), step != before_step + lasts)
     if not wrong.any():
         return begins
     row = int(np.argmax(wrong))
@@ -162,13 +171,23 @@ def _check_steps(
         raise FormatError(f"{where}: robot {robot[row]} must begin with step 0, not {step[row]}")
     if step[row] == before_step[row]:
         raise FormatError(f"{where}: robot {robot[row]} has step {step[row]} twice")
-    raise FormatError(f"{where}: robot {robot[row]} lacks step {before_step[row] + 1}; here is step {step[row]}")
+    if scenario.clock == "costs":
+        raise FormatError(
+            f"{where}: step must rise by {lasts[row]}, as long as the action lasts, not by "
+            f"{step[row] - before_step[row]}; the plan was made with another clock or other costs"
+        )
+    ticks = replace(scenario.area.tessellation, clock="costs").duration_of_direction
+    is_in_ticks = said[row] < ticks.size and ticks[said[row]] == step[row] - before_step[row]
+    raise FormatError(
+        f"{where}: robot {robot[row]} lacks step {before_step[row] + 1}; here is step {step[row]}"
+        f"{', as by clock costs' if is_in_ticks else ''}"
+    )
 
 
 def _actions(
     tessellation: Tessellation, x: NDArray[np.int64], y: NDArray[np.int64], word: NDArray[np.int64], wait: int
 ) -> tuple[NDArray[np.uint8], NDArray[np.int64]]:
-    """Return the action of each row, `JUMP` if word and cells disagree, and the cost of the move (a wait costs 0)."""
+    """Return the action of each row, `JUMP` if word and cells disagree, and the action that the word says."""
     from_x, from_y = np.append(x[:1], x[:-1]), np.append(y[:1], y[:-1])
     orientation = tessellation.orientation_of_cell(from_x, from_y)
     # What a name means depends on the cell that is left.
@@ -179,12 +198,19 @@ def _actions(
     )
     direction_of_word[:, wait] = WAIT
     actions = direction_of_word[orientation, word]
+    # A name of the other orientation means no move here, but tells how long it would last.
+    said = np.where((actions == JUMP) & (word < wait - 1), word % tessellation.direction_count, actions)
     steps = np.concatenate([tessellation.step_of_direction, np.zeros((2, WAIT, 2), dtype=np.int32)], axis=1)
     step = steps[orientation, actions]
     actions[(step[:, 0] != x - from_x) | (step[:, 1] != y - from_y)] = JUMP
-    cost = np.zeros(WAIT + 1, dtype=np.int64)
-    cost[: tessellation.direction_count] = tessellation.cost_of_direction
-    return actions, cost[actions]
+    return actions, said
+
+
+def _by_action(of_direction: NDArray[np.int32], of_others: int) -> NDArray[np.int64]:
+    """Return a table by the byte of an action: what it is of directions, and of waits and jumps."""
+    table = np.full(WAIT + 1, of_others, dtype=np.int64)
+    table[: of_direction.size] = of_direction
+    return table
 
 
 def _check_rows(

@@ -21,11 +21,13 @@ def write_mapf(plan: Plan, path: str | os.PathLike[str], *, progress: Callable[[
     Raises
     ------
     FormatError
-        If the cells are no squares.
+        If the cells are no squares, or moves last longer than a step.
     """
     area = plan.scenario.area
     if area.tessellation.name != "square":
         raise FormatError(f"{path}: mapf-visualizer draws squares only; the plan is {area.tessellation.name}")
+    if not plan.has_steps:
+        raise FormatError(f"{path}: mapf-visualizer draws moves that last one step; here clock is 'costs'")
     with new_file(path) as part, open(part, "w", encoding="ascii", newline="\n") as file:
         for step, cells in enumerate(plan.cells_by_step()):
             x, y = area.cell_to_xy(np.where(cells < 0, plan.last_cell_of_robot, cells))

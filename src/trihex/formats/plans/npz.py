@@ -1,18 +1,16 @@
-"""Plan as .npz: area, scenario and actions in one compressed file, a byte for each robot and step."""
+"""Plan as .npz: area, scenario and actions in one compressed file, a byte for each action."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Callable
 
-import numpy as np
-
 from trihex.areas import Scenario, check_possible, claimed
 from trihex.errors import FormatError
 from trihex.files import read_bytes
 from trihex.formats.archive import Entries, pack, unpack
-from trihex.formats.scenarios.arrays import SCENARIO_ENTRIES, scenario_arrays, scenario_from
-from trihex.plans import Plan, actions_of
+from trihex.formats.scenarios.arrays import LATER_ENTRIES, SCENARIO_ENTRIES, scenario_arrays, scenario_from
+from trihex.plans import Plan, actions_of, place_of_action
 
 VERSION = 1
 _ENTRIES: Entries = {
@@ -75,7 +73,7 @@ def parse_plan_npz(
     ScenarioError, PlanError, ...
         If its parts do not fit each other.
     """
-    arrays = unpack(content, path, _ENTRIES, VERSION, "a plan")
+    arrays = unpack(content, path, _ENTRIES, VERSION, "a plan", LATER_ENTRIES)
     plan = Plan(
         claimed(lambda kind: scenario_from(arrays, path, kind)),
         arrays["actions"],
@@ -96,6 +94,5 @@ def _check_inside(plan: Plan, path: object) -> None:
     start = layout.cell_to_site(plan.scenario.robots)
     escape = find_escape(start, actions_of(plan), layout.origin, layout.pitch, layout.height, layout.width)
     if escape >= 0:
-        robot = int(np.searchsorted(plan.first_action, escape, side="right")) - 1
-        step = escape - int(plan.first_action[robot]) + 1
+        robot, step = place_of_action(plan, escape)
         raise FormatError(f"{path}: robot {robot} leaves the area at step {step}")

@@ -17,7 +17,7 @@ from trihex.files import new_file
 from trihex.formats.plans.csv import plan_of_table, words_of_actions
 from trihex.formats.registry import PLAN_HEADER
 from trihex.kernels.codes import JUMP, WAIT
-from trihex.plans import Plan, cells_of_rows
+from trihex.plans import Plan, cells_of_rows, steps_of_actions
 
 # What a file may unpack to: rows take 48 bytes and more while they are read.
 MAX_ROWS = 10**8
@@ -27,7 +27,7 @@ MAX_UNPACKED = 2**32
 def write_plan_parquet(
     plan: Plan, path: str | os.PathLike[str], *, progress: Callable[[int, int], None] | None = None
 ) -> None:
-    """Write a row for each robot and step: robot, step, x, y (int64), action (words), time (int64).
+    """Write a row for each robot and action, as in CSV: robot, step, x, y (int64), action (words), time (int64).
 
     Area, destinations and rules are not kept, as in CSV. Arrow writes all rows at once: no progress is told.
 
@@ -60,13 +60,15 @@ def write_plan_parquet(
     cost = np.zeros(cells.size, dtype=np.int64)
     cost[~is_start] = cost_of_action[plan.actions]
     total = np.cumsum(cost)
+    step = np.zeros(cells.size, dtype=np.int64)
+    step[~is_start] = steps_of_actions(plan)
     # A word of a triangle that points south may be one of those that point north, too: each is kept once.
     distinct = list(dict.fromkeys(words))
     index = np.array([distinct.index(one) for one in words], dtype=np.int32)
     table = arrow.table(
         {
             "robot": robot,
-            "step": np.arange(cells.size) - first_row[robot],
+            "step": step,
             "x": x,
             "y": y,
             "action": arrow.DictionaryArray.from_arrays(index[word], distinct),

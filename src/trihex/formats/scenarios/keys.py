@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 from pydantic import AfterValidator, Field
 
-from trihex.areas import ALIGNS, CORNERS, COSTS, CROSSINGS, NEIGHBOURHOODS, TESSELLATIONS
+from trihex.areas import ALIGNS, CLOCKS, CORNERS, COSTS, CROSSINGS, FOLLOWINGS, NEIGHBOURHOODS, TESSELLATIONS
 from trihex.formats.areas.options import UNKNOWNS
 from trihex.formats.schema import Cells, Count, Number, Points, Table, Whole, choice
 
@@ -55,6 +55,8 @@ class RulesTable(Table):
     crossing: Annotated[str, choice("it", CROSSINGS)] | None = None
     corners: Annotated[str, choice("it", CORNERS)] | None = None
     destination_capacity: Count | None = None
+    clock: Annotated[str, choice("it", CLOCKS)] | None = None
+    following: Annotated[str, choice("it", FOLLOWINGS)] | None = None
 
 
 class RobotsTable(Table):

@@ -111,7 +111,7 @@ def _outputs(table: ScenarioTable, path: Path) -> dict[str, Any]:
 
 def _area_draft(table: AreaTable, path: Path, read_area_draft: Callable[[Path, AreaOptions], Draft]) -> Draft:
     tessellation = Tessellation(table.tessellation, table.neighbourhood, table.costs)
-    names = (own.name for own in fields(AreaOptions) if own.name != "tessellation")
+    names = (own.name for own in fields(AreaOptions) if own.name not in ("tessellation", "following"))
     options = {name: value for name in names if (value := getattr(table, name)) is not None}
     if table.path is not None:
         draft = read_area_draft(path.parent / table.path, AreaOptions(tessellation, **options))
@@ -149,10 +149,12 @@ def write_scenario_toml(
         *_area_lines(area),
         "",
         "[rules]",
-        f"waiting_cost = {scenario.waiting_cost}",
+        f"waiting_cost = {scenario.waiting_cost}" if scenario.clock == "steps" else "",  # else it is 1 a tick
         f"crossing = {_text(scenario.crossing)}",
         f"corners = {_text(scenario.corners)}",
         f"destination_capacity = {scenario.destination_capacity}" if scenario.destination_capacity else "",
+        f"clock = {_text(scenario.clock)}" if scenario.clock != "steps" else "",
+        f"following = {_text(scenario.following)}" if scenario.following != "allow" else "",
         "",
         "[robots]",
         f"cells = {_cells(area, scenario.robots)}",

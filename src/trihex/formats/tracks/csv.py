@@ -12,7 +12,7 @@ _ROWS_AT_ONCE = 50_000
 
 
 def write_waypoints_csv(tracks: Tracks, path: str | os.PathLike[str]) -> None:
-    """Write a row for each robot and step: seconds, metres, radians, to six decimals.
+    """Write a row for each robot and step (move, by the clock "costs"): seconds, metres, radians, to six decimals.
 
     Between two rows a robot moves in a straight line at constant speed. With its last row it leaves the world, unless
     it cannot arrive: then it stays where it is, and its last row is that of the last step of the plan.

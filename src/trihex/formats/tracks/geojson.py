@@ -10,7 +10,7 @@ from trihex.formats.tracks.tracks import Tracks
 
 
 def write_geojson(tracks: Tracks, path: str | os.PathLike[str]) -> None:
-    """Write a feature for each robot: a LineString of its places in metres, step by step; a Point if it has but one.
+    """Write a feature for each robot: a LineString of its places in metres, row by row; a Point if it has but one.
 
     Properties: kind `track`, robot, arrived, and times, the seconds of the places.
     """

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sqlite3
+from collections.abc import Iterator
 from hashlib import sha256
 
 import numpy as np
@@ -28,9 +29,10 @@ CREATE INDEX frame_id_idx ON trajectory_data(frame, id);
 
 
 def write_jupedsim(tracks: Tracks, path: str | os.PathLike[str]) -> None:
-    """Write a frame for each step, with all robots that are in the world in it, and the free cells as geometry.
+    """Write a frame for each step (tick), with all robots that are in the world in it, and free cells as geometry.
 
-    A robot is in the last frame when it arrives. The geometry is all free ground that is connected with a robot.
+    A robot that is on its way is between two centres, in a straight line. It is in the last frame when it arrives.
+    The geometry is all free ground that is connected with a robot.
 
     Raises
     ------
@@ -44,9 +46,7 @@ def write_jupedsim(tracks: Tracks, path: str | os.PathLike[str]) -> None:
     wkt = _walkable(tracks.area, tracks)
     frames = int(tracks.step.max()) + 1
     ground = int.from_bytes(sha256(wkt.encode()).digest()[:8], signed=True)
-    order = np.lexsort((tracks.robot, tracks.step))
-    columns = (tracks.step, tracks.robot, tracks.x, tracks.y, np.cos(tracks.yaw), np.sin(tracks.yaw))
-    rows = zip(*(column[order].tolist() for column in columns), strict=True)
+    rows = _rows_of_frames(tracks)
     with new_file(path) as part:
         connection = sqlite3.connect(part, isolation_level=None)
         try:
@@ -67,6 +67,22 @@ def write_jupedsim(tracks: Tracks, path: str | os.PathLike[str]) -> None:
             connection.execute("COMMIT")
         finally:
             connection.close()
+
+
+def _rows_of_frames(tracks: Tracks) -> Iterator[tuple[float, ...]]:
+    """Yield frame, robot, place and heading, frame by frame, of every robot that is in the world in it."""
+    after = np.append(tracks.step[1:], 0)
+    is_last = np.zeros(tracks.step.size, dtype=bool)
+    is_last[tracks.first_row[1:] - 1] = True
+    frames = np.where(is_last, 1, after - tracks.step)  # from each row up to the next of its robot
+    row = np.repeat(np.arange(frames.size), frames)
+    later = np.arange(row.size) - np.repeat(np.cumsum(frames) - frames, frames)
+    share, next_row = later / frames[row], np.where(is_last[row], row, row + 1)
+    x, y = (own[row] + share * (own[next_row] - own[row]) for own in (tracks.x, tracks.y))
+    step, robot, yaw = tracks.step[row] + later, tracks.robot[row], tracks.yaw[row]
+    order = np.lexsort((robot, step))
+    columns = (step, robot, x, y, np.cos(yaw), np.sin(yaw))
+    yield from zip(*(column[order].tolist() for column in columns), strict=True)
 
 
 def _walkable(area: Area, tracks: Tracks) -> str:

@@ -10,21 +10,24 @@ from numpy.typing import NDArray
 
 from trihex.areas import Area
 from trihex.errors import FormatError
-from trihex.plans import Plan, cells_of_rows
+from trihex.kernels.codes import WAIT
+from trihex.plans import Plan, cells_of_rows, place_of_action, steps_of_actions
 from trihex.record import Record, read_only
 
 
 @dataclass(frozen=True, eq=False)
 class Tracks(Record):
-    """The places of all robots, robot by robot and step by step; between two of them a robot moves in a straight line.
+    """The places of all robots, robot by robot; between two of them a robot moves in a straight line.
 
-    Robot r has the rows ``first_row[r]`` to ``first_row[r + 1] - 1``, one for each step from 0. It leaves the world
-    with its last row, in which it arrives. One that never arrives has rows to the last step of the plan.
+    Robot r has the rows ``first_row[r]`` to ``first_row[r + 1] - 1``: one for each step from 0; by the clock "costs"
+    one where it starts, and where each move and each row of waits ends. It leaves the world with its last row, in which
+    it arrives. One that never arrives has rows to the last step of the plan.
 
     Attributes
     ----------
     area : Area
     seconds_per_step : float
+        Of a tick by the clock "costs".
     first_row : int64 array, shape (robots + 1,)
     step : int64 array, shape (rows,)
     x, y : float64 arrays, shape (rows,)
@@ -72,7 +75,7 @@ def make_tracks(plan: Plan, speed: float = 1.0) -> Tracks:
     """Return the tracks of a plan whose area has a frame.
 
     All moves take as long: a step lasts as the longest move of the tessellation does at `speed`, so that no robot is
-    ever faster.
+    ever faster. By the clock "costs" a tick lasts as the farthest way does that a robot goes in a tick.
 
     Parameters
     ----------
@@ -91,25 +94,52 @@ def make_tracks(plan: Plan, speed: float = 1.0) -> Tracks:
         raise FormatError(f"speed must be above 0 metres in a second, not {speed!r}")
     if plan.jumps.size:
         at = int(plan.jumps[0, 0])
-        robot = int(np.searchsorted(plan.first_action, at, side="right")) - 1
-        step = at - int(plan.first_action[robot]) + 1
-        raise FormatError(f"robot {robot} jumps in step {step}, as no robot can; check the plan")
+        robot, step = place_of_action(plan, at)
+        raise FormatError(f"robot {robot} jumps in {plan.scenario.step_word} {step}, as no robot can; check the plan")
     area = plan.scenario.area
     frame = area.metres
-    length = np.where(plan.arrived, np.diff(plan.first_action), plan.steps)
-    first_row = np.concatenate([[0], np.cumsum(length + 1)])
-    cells = cells_of_rows(plan, first_row)
+    first_row, step, cells = _rows_by_step(plan) if plan.scenario.clock == "steps" else _rows_by_move(plan)
     x, y = area.cell_to_metres(cells)
     return Tracks(
         area,
-        area.tessellation.longest_move * frame.cell_size / speed,
+        area.tessellation.longest_tick * frame.cell_size / speed,
         first_row,
-        np.arange(cells.size) - np.repeat(first_row[:-1], length + 1),
+        step,
         x,
         y,
         _yaw(x, y, first_row, frame.yaw),
         plan.arrived,
     )
+
+
+def _rows_by_step(plan: Plan) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+    """Return the first row of each robot, and the step and the cell of each row, one for each step."""
+    length = np.where(plan.arrived, np.diff(plan.first_action), plan.steps)
+    first_row = np.concatenate([[0], np.cumsum(length + 1)])
+    cells = cells_of_rows(plan, first_row)
+    return first_row, np.arange(cells.size) - np.repeat(first_row[:-1], length + 1), cells
+
+
+def _rows_by_move(plan: Plan) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+    """Return the same with a row for each start and move, and one where waits end: they last but a tick each."""
+    stays = ~plan.arrived & (plan.last_step_of_robot < plan.steps)
+    length = np.diff(plan.first_action) + 1 + stays
+    first_row = np.concatenate([[0], np.cumsum(length)])
+    cells = cells_of_rows(plan, first_row)
+    is_last = np.zeros(cells.size, dtype=bool)
+    is_last[first_row[1:] - 1] = True
+    is_start = np.zeros(cells.size, dtype=bool)
+    is_start[first_row[:-1]] = True
+    is_action = ~is_start
+    is_action[first_row[1:][stays] - 1] = False
+    step = np.where(is_start, 0, plan.steps)
+    step[is_action] = steps_of_actions(plan)
+    is_wait = ~is_start
+    is_wait[is_action] = plan.actions == WAIT
+    kept = ~is_wait | is_last | ~np.append(is_wait[1:], False)
+    robot = np.repeat(np.arange(length.size), length)
+    first_row = np.concatenate([[0], np.cumsum(np.bincount(robot[kept], minlength=length.size))])
+    return first_row, step[kept], cells[kept]
 
 
 def _yaw(

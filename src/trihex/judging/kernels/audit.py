@@ -4,17 +4,9 @@ import numpy as np
 from numba import types
 
 from trihex.judging.kernels.deeds import DEEDS, NO_VERTEX, deed_of, prefetch_deed
-from trihex.judging.kernels.findings import (
-    ACTS_ON,
-    CORNER,
-    FINDINGS,
-    JUMPS,
-    NONE,
-    ONTO_BARRIER,
-    OUT_OF_AREA,
-    note,
-)
-from trihex.judging.kernels.law import ALLOW, BARRIER, LAW, OUTSIDE, is_corner_closed
+from trihex.judging.kernels.findings import ACTS_ON, FINDINGS, JUMPS, NONE, OUT_OF_AREA, note
+from trihex.judging.kernels.ground import judge_ground
+from trihex.judging.kernels.law import BARRIER, LAW, OUTSIDE
 from trihex.judging.kernels.meetings import (
     ARRIVED,
     JUDGED_ROBOTS,
@@ -41,15 +33,9 @@ _U = np.uint64
 @HELPER
 def _judge_way(deed, law, robots, places, findings):
     """Judge how a robot gets where it goes, whoever may be there."""
-    is_onto_barrier = deed.onto >= BARRIER
-    if is_onto_barrier and deed.action != WAIT:
-        note(findings, deed.step, ONTO_BARRIER, (deed.robot, NONE), (deed.here, deed.target, NONE, NONE))
-    if deed.vertex != NO_VERTEX:
-        if law.corner_rule != ALLOW and not is_onto_barrier:
-            if is_corner_closed(deed.here, deed.target, deed.vertex, places.place, law):
-                note(findings, deed.step, CORNER, (deed.robot, NONE), (deed.here, deed.target, NONE, NONE))
-        if law.forbids_crossing:
-            judge_crossing(deed, robots, places, findings)
+    judge_ground(deed, law, places.place, findings)
+    if deed.vertex != NO_VERTEX and law.forbids_crossing:
+        judge_crossing(deed, robots, places, findings)
     if deed.target != deed.here:
         judge_exchange(deed, robots, places, findings)
 

@@ -52,8 +52,13 @@ def _end_of_jump(i, deeds):
 
 @HELPER
 def deed_of(robot, step, here, place, law, deeds):
-    """Return what a robot that stands at `here` does in this step."""
-    i = deeds.first[_U(robot)] + step - 1
+    """Return what a robot that stands at `here` does in this step, where each action lasts one."""
+    return deed_at(deeds.first[_U(robot)] + step - 1, robot, step, here, place, law, deeds)
+
+
+@HELPER
+def deed_at(i, robot, step, here, place, law, deeds):
+    """Return what action `i` does, the one by which a robot leaves `here` in this step."""
     action = np.int64(deeds.action[_U(i)])
     target, vertex = here, NO_VERTEX
     if action == JUMP:

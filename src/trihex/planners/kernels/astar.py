@@ -85,7 +85,7 @@ def _begin(start, terrain, reserved, nodes, heap, state):
 @HELPER
 def _reach(parent, action, target, cost, terrain, nodes, heap, state):
     """Open the node to which an action leads, unless it has been reached at no more than this cost."""
-    step = np.int64(nodes.step[parent]) + 1
+    step = np.int64(nodes.step[parent]) + (1 if action == WAIT else np.int64(terrain.duration[action]))
     place = _find_place(target, step, nodes)
     node = np.int64(nodes.table[place])
     if node == _NEW:
@@ -102,8 +102,8 @@ def _reach(parent, action, target, cost, terrain, nodes, heap, state):
 
 @HELPER
 def _leave(node, terrain, reserved, is_shut, nodes, heap, state):
-    """Open all nodes to which a robot may get from a node in one step: by each direction, and by waiting."""
-    site, step, cost = np.int64(nodes.site[node]), np.int64(nodes.step[node]) + 1, nodes.cost[node]
+    """Open all nodes to which a robot may get from a node: by each direction, and by waiting for a step."""
+    site, step, cost = np.int64(nodes.site[node]), np.int64(nodes.step[node]), nodes.cost[node]
     for k in range(len(terrain.cost)):
         target = site + terrain.offset[site & 1, k]
         if not terrain.moves[site] >> k & 1 or (len(is_shut) > 0 and is_shut[target]):
@@ -147,10 +147,10 @@ def search(start, terrain, reserved, is_shut, nodes, heap, state, budget):
 
 @kernel(types.int64(SPACE_TIME, OUT_I64, OUT_U8))
 def write_way(nodes, state, actions):
-    """Fill the actions that lead to the goal and return their number."""
-    node = state[GOAL]
-    steps = nodes.step[node]
+    """Fill the actions that lead to the goal, from the end of `actions` back, and return their number."""
+    node, count = state[GOAL], 0
     while nodes.parent[node] >= 0:
-        actions[nodes.step[node] - 1] = nodes.action[node]
+        count += 1
+        actions[len(actions) - count] = nodes.action[node]
         node = np.int64(nodes.parent[node])
-    return steps
+    return count

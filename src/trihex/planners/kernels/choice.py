@@ -16,7 +16,8 @@ from trihex.planners.kernels.traffic import Now, is_full, is_passed
 from trihex.planners.kernels.ways import first_of, neighbour, vertex_of, without_first
 
 # What c counts: robots that will be in my slot, or the line that they have formed in it by the time I am there.
-MEETINGS, QUEUE = 0, 1
+# Nothing at all: robots descend.
+MEETINGS, QUEUE, NOTHING = 0, 1, 2
 # When a blocked robot steps aside: never; to a place no farther than its own, if that is worth a wait; whenever there
 # is one that it has not just left.
 STAY, WORTH, ALWAYS = 0, 1, 2
@@ -60,7 +61,7 @@ RULE = declared(Rule)
 
 
 @HELPER
-def _is_of_region(slot, turn):
+def is_of_region(slot, turn):
     """Tell whether a slot, or a destination, belongs to the region under way."""
     if slot > 0:
         return turn.first_slot <= slot < turn.end_slot
@@ -68,7 +69,7 @@ def _is_of_region(slot, turn):
 
 
 @HELPER
-def _slot_of(site, ways, sites, slots):
+def slot_of(site, ways, sites, slots):
     """Return the slot of a site, found now if nobody has asked for it before."""
     slot = np.int64(sites.slot[_U(site)])
     return slot if slot != 0 else np.int64(find_slot(site, ways, sites, slots))
@@ -93,8 +94,8 @@ def weigh_best(site, own, descends, turn, rule, ways, sites, slots, traffic, ask
         k = first_of(untried)
         untried = without_first(untried)
         target = neighbour(site, k, ways)
-        slot = _slot_of(target, ways, sites, slots)
-        if not _is_of_region(slot, turn):
+        slot = slot_of(target, ways, sites, slots)
+        if not is_of_region(slot, turn):
             continue
         fcost = own_distance
         if slot > 0:
@@ -128,7 +129,7 @@ def weigh_others(site, choice, turn, rule, ways, sites, slots, traffic):
         fcost = np.int64(ways.cost[_U(k)]) + sites.distance[_U(target)]
         if fcost >= least:
             continue
-        slot = _slot_of(target, ways, sites, slots)
+        slot = slot_of(target, ways, sites, slots)
         if slot < turn.first_slot or slot >= turn.end_slot:
             continue
         fcost += rule.price * _collisions(slot, own_slot, slots)

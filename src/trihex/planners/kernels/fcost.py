@@ -18,6 +18,7 @@ from trihex.planners.kernels.traffic import TRAFFIC, Now, note_entry, note_passi
 from trihex.planners.kernels.ways import WAYS, first_of, neighbour
 
 _U = np.uint64
+_ONE = np.int64(1)  # how many places in a line a robot takes up
 
 
 class Asking(NamedTuple):
@@ -107,7 +108,7 @@ def _begin(region, first_row, rule, sites, slots, robots, asking, rows):
         slots.highest[branch] = max(slots.highest[branch], slot)
     if rule.counts == QUEUE:
         for branch in range(first_branch, last_branch):
-            measure_lines(branch, rows.steps, slots)
+            measure_lines(branch, rows.steps, _ONE, slots)
 
 
 @HELPER
@@ -117,7 +118,7 @@ def _count(region, s, rule, slots):
         if rule.counts == MEETINGS:
             count_meetings(slots.first_slot[branch], slots.first_slot[branch + 1], slots)
         elif s % rule.period == 0:
-            line_up(slots.first_slot[branch], slots.lined_end[branch], slots)
+            line_up(slots.first_slot[branch], slots.lined_end[branch], _ONE, slots)
 
 
 @HELPER

@@ -1,7 +1,9 @@
 """Reservations: which site, lattice vertex and destination the ways of robots take in which step.
 
-Row t of a table is step t; beyond the last row nothing is reserved. For each (step, site) there is one byte: 0 if it is
-free, 1 + the direction by which a robot came there, or `WAIT` if it waited or starts there.
+Beyond the last row nothing is reserved. For each (row, site) there is one byte: 0 if it is free, 1 + the direction by
+which a robot comes there, or `WAIT`. Where all moves last one step and others may follow at once, row t is where robots
+are after step t. Else tick t has as many rows as say who owns a cell meanwhile: one if whoever moves owns both cells,
+two, its halves, if it owns the one that it leaves for the first half of its move, and then the other.
 """
 
 from typing import NamedTuple
@@ -11,6 +13,7 @@ from numba import types
 
 from trihex.kernels.codes import WAIT
 from trihex.kernels.signatures import (
+    APART,
     HELPER,
     IN_I32,
     IN_U8,
@@ -30,21 +33,23 @@ class Terrain(NamedTuple):
     vertex: TABLE_I32  # what it adds to get the lattice vertex passed
     back: TABLE_I32  # the direction that leads back
     cost: IN_I32  # of each direction
+    duration: IN_I32  # of each direction, in steps
     moves: IN_U16  # bits of the directions that may be taken from a site
     distance: IN_I32  # of a site, what it costs at least to get to a destination
     gates: IN_I32  # the sites beside destinations
     first_vertex_move: types.int64  # from this direction on, vertices are passed that others may not pass
     waiting_cost: types.int64  # of a step
-    least_cost: types.int64  # of any step, a wait or a move
-    most_cost: types.int64  # of any move
+    least_cost: types.int64  # of a step of waiting or any move
+    most_cost: types.int64  # of a step of any move
 
 
 class Reserved(NamedTuple):
     """The tables of what is taken, row after row."""
 
-    rows: types.int64  # how many steps the tables have
+    rows: types.int64  # how many the tables have
+    per_tick: types.int64  # how many of them are one tick; 0: where robots are after each step is all there is
     site: OUT_U8  # rows of all sites: 0, 1 + direction, or `WAIT`
-    vertex: OUT_U8  # rows of all vertices: 1 if it is passed (empty where crossing is allowed)
+    vertex: OUT_U8  # for each step all vertices: 1 if it is passed (empty where crossing is allowed)
     entries: OUT_I32  # rows of all destinations: how many enter it (empty where any number may)
     number: IN_I32  # of a destination, by site: its place in a row of `entries`
     ends: types.int64  # how many destinations a row of `entries` has
@@ -55,23 +60,68 @@ TERRAIN, RESERVED = declared(Terrain), declared(Reserved)
 
 
 @HELPER
-def is_free(site, step, terrain, reserved):
-    """Tell whether nobody is at a site after a step."""
-    return step >= reserved.rows or reserved.site[step * len(terrain.distance) + site] == 0
+def _are_free(site, first, last, terrain, reserved):
+    """Tell whether nobody owns a site in the rows from `first` to the one before `last`."""
+    row, end = first, min(last, reserved.rows)
+    while row < end and reserved.site[row * len(terrain.distance) + site] == 0:
+        row += 1
+    return row >= end
 
 
 @HELPER
-def is_open(site, k, step, terrain, reserved):
-    """Tell whether a robot may leave `site` by direction `k` so that it is there in `step`."""
-    if step >= reserved.rows:
+def is_free(site, begin, terrain, reserved):
+    """Tell whether a robot may stay at a site for the step that follows `begin`."""
+    first = begin * reserved.per_tick if reserved.per_tick else begin + 1
+    return _are_free(site, first, first + max(np.int64(1), reserved.per_tick), terrain, reserved)
+
+
+@HELPER
+def _rows_of_move(k, begin, terrain, reserved):
+    """Return the row in which a move begins, until which it owns the cell left, from which on the next, and its end."""
+    first, duration = begin * reserved.per_tick, np.int64(terrain.duration[k])
+    if reserved.per_tick == 2:
+        return first, first + duration, first + duration, first + 2 * duration
+    return first, first + duration, first, first + duration
+
+
+@APART
+def _may_own(site, k, begin, terrain, reserved):
+    """Tell whether a robot that leaves `site` by direction `k` at tick `begin` may own all that it needs."""
+    first, left, entered, end = _rows_of_move(k, begin, terrain, reserved)
+    size, side = len(terrain.distance), site & 1
+    if not _are_free(site, first, left, terrain, reserved):
+        return False
+    if k >= terrain.first_vertex_move:
+        vertex = site + terrain.vertex[side, k]
+        for tick in range(begin, min(begin + terrain.duration[k], reserved.rows // reserved.per_tick)):
+            if reserved.vertex[tick * size + vertex]:
+                return False
+    target = site + terrain.offset[side, k]
+    if terrain.distance[target] == 0:
+        for row in range(entered, min(end, reserved.rows) if reserved.capacity else entered):
+            if reserved.entries[row * reserved.ends + reserved.number[target]] >= reserved.capacity:
+                return False
         return True
-    row = step * len(terrain.distance)
+    if not _are_free(target, entered, end, terrain, reserved):
+        return False
+    # Nobody comes the other way: such a move can only begin at the same tick.
+    return left >= reserved.rows or reserved.site[left * size + site] != 1 + terrain.back[side, k]
+
+
+@HELPER
+def is_open(site, k, begin, terrain, reserved):
+    """Tell whether a robot may leave `site` by direction `k` after step `begin`."""
+    if reserved.per_tick:
+        return _may_own(site, k, begin, terrain, reserved)
+    if begin + 1 >= reserved.rows:
+        return True
+    row = (begin + 1) * len(terrain.distance)
     side = site & 1
     if k >= terrain.first_vertex_move and reserved.vertex[row + site + terrain.vertex[side, k]]:
         return False
     target = site + terrain.offset[side, k]
     if terrain.distance[target] == 0:
-        place = step * reserved.ends
+        place = (begin + 1) * reserved.ends
         return reserved.capacity == 0 or reserved.entries[place + reserved.number[target]] < reserved.capacity
     if reserved.site[row + target]:
         return False
@@ -82,8 +132,9 @@ def is_open(site, k, step, terrain, reserved):
 def _is_way_in(site, step, terrain, reserved):
     """Tell whether a robot may enter a destination in `step` from a site beside it."""
     for k in range(len(terrain.cost)):
-        target = site + terrain.offset[site & 1, k]
-        if terrain.distance[target] == 0 and is_open(site, k, step, terrain, reserved):
+        target, begin = site + terrain.offset[site & 1, k], step - np.int64(terrain.duration[k])
+        is_early = begin < 0 and reserved.per_tick > 0
+        if terrain.distance[target] == 0 and not is_early and is_open(site, k, begin, terrain, reserved):
             return True
     return False
 
@@ -91,18 +142,54 @@ def _is_way_in(site, step, terrain, reserved):
 @HELPER
 def find_first_entry(step, terrain, reserved):
     """Return the first step from `step` on in which a destination can be entered from one of the gates."""
-    while step < reserved.rows:
+    while step * max(np.int64(1), reserved.per_tick) < reserved.rows:
         for i in range(len(terrain.gates)):
             site = np.int64(terrain.gates[i])
-            if (step == 0 or is_free(site, step - 1, terrain, reserved)) and _is_way_in(site, step, terrain, reserved):
+            if reserved.per_tick == 0 and step > 0 and not is_free(site, step - 2, terrain, reserved):
+                continue  # somebody is there before that step
+            if _is_way_in(site, step, terrain, reserved):
                 return step
         step += 1
     return step
 
 
+@APART
+def _own(site, k, begin, terrain, reserved):
+    """Reserve a move of direction `k` from `site` at tick `begin`."""
+    first, left, entered, end = _rows_of_move(k, begin, terrain, reserved)
+    size = len(terrain.distance)
+    target = site + terrain.offset[site & 1, k]
+    for row in range(first, left):
+        reserved.site[row * size + site] = WAIT
+    if k >= terrain.first_vertex_move:
+        for tick in range(begin, begin + terrain.duration[k]):
+            reserved.vertex[tick * size + site + terrain.vertex[site & 1, k]] = 1
+    for row in range(entered, end):
+        if terrain.distance[target] > 0:
+            reserved.site[row * size + target] = 1 + k
+        elif reserved.capacity > 0:
+            reserved.entries[row * reserved.ends + reserved.number[target]] += 1
+
+
+@kernel(types.void(types.int64, IN_U8, TERRAIN, RESERVED))
+def reserve_ticks(start, actions, terrain, reserved):
+    """Reserve a way where moves last, or nobody follows at once. The tables have rows for each of its ticks."""
+    site, tick = start, np.int64(0)
+    for i in range(len(actions)):
+        k = np.int64(actions[i])
+        if k != WAIT:
+            _own(site, k, tick, terrain, reserved)
+            tick += terrain.duration[k]
+            site += terrain.offset[site & 1, k]
+            continue
+        for row in range(tick * reserved.per_tick, (tick + 1) * reserved.per_tick):
+            reserved.site[row * len(terrain.distance) + site] = WAIT
+        tick += 1
+
+
 @kernel(types.void(types.int64, IN_U8, TERRAIN, RESERVED))
 def reserve(start, actions, terrain, reserved):
-    """Reserve a way. The tables have a row for each of its steps."""
+    """Reserve a way, step by step. The tables have a row for each of its steps."""
     size = len(terrain.distance)
     site = start
     reserved.site[site] = WAIT

@@ -104,21 +104,24 @@ def find_slots(starts, ways, sites, slots):
 
 
 @HELPER
-def line_up(first, last, slots):
-    """Fill how long the line is that a robot finds in its slot: one leaves in each step, those of the slot join."""
+def line_up(first, last, places, slots):
+    """Fill how long the line is that a robot finds in its slot: in each step it is one shorter, those of the slot join.
+
+    Each takes up so many `places` in the line.
+    """
     waiting = np.int32(0)
     for slot in range(first, last):
-        waiting = max(np.int32(0), waiting - np.int32(1)) + slots.count[slot]
+        waiting = max(np.int32(0), waiting - np.int32(1)) + slots.count[slot] * np.int32(places)
         slots.line[slot] = waiting
     return waiting
 
 
 @HELPER
-def measure_lines(branch, steps, slots):
+def measure_lines(branch, steps, places, slots):
     """Find how far the line of a branch may reach in the next `steps` steps, and clear what lies beyond."""
     end = slots.first_slot[branch]
     if slots.highest[branch] > 0:
-        waiting = line_up(end, slots.highest[branch] + 1, slots)
+        waiting = line_up(end, slots.highest[branch] + 1, places, slots)
         end = min(slots.first_slot[branch + 1], slots.highest[branch] + 1 + max(waiting, steps))
     for slot in range(end, slots.lined_end[branch]):
         slots.line[slot] = 0

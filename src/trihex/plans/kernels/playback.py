@@ -19,32 +19,36 @@ class StepSums(NamedTuple):
     lost: OUT_I64  # how much of that brings them no nearer
 
 
-@kernel(types.void(IN_I32, ACTIONS, IN_I32, types.int64, IN_BOOL, IN_I32, declared(StepSums)))
-def count_steps(start, actions, cost, waiting_cost, arrived, distance, sums):
+@kernel(types.void(IN_I32, ACTIONS, IN_I32, types.int64, IN_I32, IN_BOOL, IN_I32, declared(StepSums)))
+def count_steps(start, actions, cost, waiting_cost, duration, arrived, distance, sums):
     """Add up for each step who moves, waits and arrives, the time spent, and how much of it was no way forward.
 
     The counts are of all robots, the times of those that arrive only. `cost` is that of each direction, `distance`
-    the N-scheme by site; an action loses what it costs less what it brings its robot nearer; a jump costs nothing.
+    the N-scheme by site; an action loses what it costs less what it brings its robot nearer; a jump costs nothing. An
+    action that lasts ``duration[its byte]`` steps is paid step by step; what it loses is lost in the first.
     """
     for robot in range(len(start)):
         site, arrives = start[robot], arrived[robot]
-        first, last = actions.first[robot], actions.first[robot + 1]
-        for i in range(first, last):
-            step = i - first + 1
+        step = 1  # in which the next action begins
+        for i in range(actions.first[robot], actions.first[robot + 1]):
             action = actions.action[i]
             to = site
             price = waiting_cost
             if action == WAIT:
                 sums.waiting[step] += 1
             else:
-                sums.moving[step] += 1
+                for later in range(step, step + duration[action]):
+                    sums.moving[later] += 1
                 to = site_after(site, i, actions)
                 price = 0 if action == JUMP else cost[action]
             if arrives:
-                sums.spent[step] += price
+                paid = price if duration[action] == 1 else 1  # what lasts longer costs as much as it lasts
+                for later in range(step, step + duration[action]):
+                    sums.spent[later] += paid
                 sums.lost[step] += price
                 if distance[site] != NOT_REACHED and distance[to] != NOT_REACHED:
                     sums.lost[step] += distance[to] - distance[site]
             site = to
+            step += duration[action]
         if arrives:
-            sums.arriving[last - first] += 1
+            sums.arriving[step - 1] += 1

@@ -8,13 +8,14 @@ import { Dialog } from "./dialog.js";
 import { Draws } from "./draws.js";
 import { Field } from "./field.js";
 import { Followed } from "./followed.js";
+import { Guide } from "./guide.js";
 import { Growing } from "./growing.js";
 import { Hand } from "./hand.js";
 import { History } from "./history.js";
 import { Keys } from "./keys.js";
 import { LivePanel } from "./livepanel.js";
 import { Opening } from "./opening.js";
-import { layOut } from "./panel.js";
+import { Panel, layOut } from "./panel.js";
 import { Planning } from "./planning.js";
 import { Questions } from "./questions.js";
 import { Readout } from "./readout.js";
@@ -26,11 +27,13 @@ import { Stage } from "./stage.js";
 import { Status } from "./status.js";
 import { Theme } from "./theme.js";
 import { Tools } from "./tools.js";
+import { undergroundOf } from "./underground.js";
 
 export class App {
   constructor(root, settings, host, first) {
     Object.assign(this, { root, settings, host });
     this.doc = null;
+    this.making = null; // settles when the document that is being made is there
     this.runs = [null, null]; // plans: for the document, and beside it
     this.listeners = new AbortController();
     this.isClosed = false;
@@ -39,9 +42,9 @@ export class App {
     root.replaceChildren(this.shell);
     this.#listen();
     this.theme.apply();
-    this.tools.choose(host ? "wall" : "move");
+    this.tools.choose(this.canEdit ? "wall" : "move");
     if (first) this.take(first);
-    else this.draws.begin();
+    else this.make(this.draws.begin()).then(() => this.guide.offer());
   }
 
   #makeParts() {
@@ -60,14 +63,17 @@ export class App {
     this.tools = new Tools(this);
     this.hand = new Hand(this);
     this.keys = new Keys(this);
+    this.panel = new Panel(this);
     this.bar = new Bar(this);
-    // What there is to be asked of a host.
-    this.rules = this.host && new Rules(this);
-    this.draws = this.host && new Draws(this);
+    // What there is to be asked of a host, and what takes one that does more than hand out answers.
+    const editing = (Part) => (this.canEdit ? new Part(this) : null);
+    this.rules = editing(Rules);
+    this.draws = editing(Draws);
     this.planning = this.host && new Planning(this);
-    this.livePanel = this.host && new LivePanel(this);
-    this.opening = this.host && new Opening(this);
-    this.saving = this.host && new Saving(this);
+    this.livePanel = editing(LivePanel);
+    this.opening = editing(Opening);
+    this.saving = editing(Saving);
+    this.guide = editing(Guide);
   }
 
   #listen() {
@@ -77,7 +83,8 @@ export class App {
       event.preventDefault();
       if (event.dataTransfer.files[0]) this.opening?.openFile(event.dataTransfer.files[0]);
     });
-    new ResizeObserver(() => this.stage.resize()).observe(this.stage.element);
+    const sizes = new ResizeObserver(() => this.stage.resize());
+    for (const element of [this.stage.element, ...this.panes.map(({ canvas }) => canvas)]) sizes.observe(element);
   }
 
   close() {
@@ -87,6 +94,7 @@ export class App {
 
   // ---- what the parts hold
 
+  get canEdit() { return this.host?.canEdit ?? false; }
   get panes() { return this.stage.panes; }
   get job() { return this.questions.job; }
   get fields() { return this.field.known; }
@@ -97,6 +105,20 @@ export class App {
   }
   get fraction() { return this.live ? this.live.fraction : this.clock.at - this.clock.step; }
   get request() { return { document: this.doc.header }; }
+
+  // Make another document: what needs one waits until it is there.
+  async make(work) {
+    const making = this.making = work.finally(() => { if (this.making === making) this.making = null; });
+    return making;
+  }
+
+  // Until the document is there that is being made.
+  async ready(what) {
+    while (this.making) {
+      this.say(`${what} as soon as the area and its robots are there.`);
+      await this.making;
+    }
+  }
 
   say(words, isWarning) { this.status.say(words, isWarning); }
   ask(header, arrays, words, onPart) { return this.questions.ask(header, arrays, words, onPart); }
@@ -114,7 +136,9 @@ export class App {
 
   // Take an answer of the host: a document, and the plan for it if there is one.
   take({ header, arrays }, { isEdit = true } = {}) {
-    const doc = documentOf(header.document, arrays), run = header.summary ? runOf({ header, arrays }, doc) : null;
+    const plain = documentOf(header.document, arrays);
+    const doc = { ...plain, ground: undergroundOf(header, arrays, plain.barriers) };
+    const run = header.summary ? runOf({ header, arrays }, doc) : null;
     // A file may hold the plan beside it as well.
     const beside = arrays.beside ? runOf(decode(arrays.beside.slice())) : null;
     this.planning?.choose(header.planner);
@@ -122,7 +146,7 @@ export class App {
     else this.set(doc, [run, beside]);
     if (!run) return;
     this.tools.choose("move");
-    this.say("Press Play.");
+    this.say(this.#wordsOf(run));
     this.planning?.bound();
   }
 
@@ -135,6 +159,7 @@ export class App {
   // Go on with another document, in a way that can be undone.
   edit(doc, runs = [null, null]) {
     this.leaveLive();
+    this.guide?.leave();
     if (this.doc) this.history.keep({ doc: this.doc, runs: this.runs });
     this.set(doc, runs);
   }
@@ -144,7 +169,9 @@ export class App {
   #travel(find) {
     this.leaveLive();
     const state = find({ doc: this.doc, runs: this.runs });
-    if (state) this.set(state.doc, state.runs);
+    if (!state) return;
+    this.say("");
+    this.set(state.doc, state.runs);
   }
 
   // Show another document and its plans, and drop what belonged to the one before.
@@ -163,7 +190,7 @@ export class App {
   // ---- what is shown
 
   refresh() {
-    for (const part of [this.bar, this.rules, this.draws, this.growing, this.planning]) part?.show();
+    for (const part of [this.bar, this.tools, this.rules, this.draws, this.growing, this.planning]) part?.show();
     this.#sayNext();
     this.livePanel?.show();
     this.stage.show();
@@ -179,8 +206,11 @@ export class App {
       const missing = this.missing();
       if (!status.isWarning || !missing) this.say(missing || "Press Plan to find paths for all robots.");
     }
-    if (runs[0] && !status.text) this.say("Press Play.");
+    if (runs[0] && !status.text) this.say(this.#wordsOf(runs[0]));
   }
+
+  // What there is to say of a plan that has come.
+  #wordsOf({ summary }) { return this.planning ? this.planning.wordsOf(summary) : "Press Play."; }
 
   showNumbers() {
     this.results.show();

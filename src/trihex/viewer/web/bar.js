@@ -10,13 +10,13 @@ export class Bar {
     this.undo = button("Undo", () => app.undo(), { title: "Ctrl+Z" });
     this.redo = button("Redo", () => app.redo(), { title: "Ctrl+Shift+Z" });
     this.name = h("span", { class: "name" });
-    const files = app.host && [
+    const files = app.canEdit && [
       button("New…", () => app.draws.open(), { title: "Make an area" }),
       button("Open…", () => app.opening.open(), { title: "Ctrl+O" }),
       button("Save…", () => app.saving.open(), { title: "Ctrl+S" }), this.undo, this.redo,
     ];
-    this.element = h("header", { class: "bar" }, h("strong", { class: "brand" }, "trihex"), files, this.name,
-      app.theme.button, button("Help", () => showHelp(app.dialog), { title: "?" }));
+    this.element = h("header", { class: "bar" }, h("strong", { class: "brand" }, "trihex"), files || null, this.name,
+      app.panel.button, app.theme.button, button("Help", () => showHelp(app), { title: "?" }));
   }
 
   show() {

@@ -5,7 +5,7 @@ import { h, number } from "./words.js";
 const WIDTH = 300, HEIGHT = 120, MOST_POINTS = 600;
 
 function greatestOf(curves) {
-  let most = 1;
+  let most = 0;
   for (const curve of curves) for (const value of curve) if (value > most) most = value;
   return most;
 }
@@ -34,11 +34,11 @@ export class Chart {
 
   // `lasts` where a curve stays what it is at its end.
   #figure(label, curves, lasts) {
-    const steps = Math.max(1, this.app.steps), most = greatestOf(curves);
+    const steps = Math.max(1, this.app.steps), most = greatestOf(curves), scale = Math.max(1, most);
     const svg = h("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "img", preserveAspectRatio: "none",
       "aria-label": `${label} by step, at most ${number(most)}` });
     svg.append(h("line", { x1: 0, y1: HEIGHT - 1, x2: WIDTH, y2: HEIGHT - 1, class: "axis" }));
-    const x = (step) => (step / steps) * WIDTH, y = (value) => HEIGHT - 2 - (value / most) * (HEIGHT - 6);
+    const x = (step) => (step / steps) * WIDTH, y = (value) => HEIGHT - 2 - (value / scale) * (HEIGHT - 6);
     curves.forEach((curve, i) => {
       const every = Math.max(1, Math.floor(curve.length / MOST_POINTS)), points = [], last = curve.length - 1;
       for (let step = 0; step < curve.length; step += every) {

@@ -5,16 +5,21 @@ import { button } from "./controls.js";
 
 const SPEEDS = [0.5, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96]; // steps per second
 
+const HINT_OF_STEP = "The step that is shown, of all steps: in each, every robot moves or waits.";
+
+const minutes = (seconds) =>
+  `${Math.floor(seconds / 60)}:${String(Math.floor(seconds % 60)).padStart(2, "0")}`;
+
 export class Clock {
   constructor(app) {
     this.app = app;
     this.at = 0; // a step, and the share of the next that has passed
     this.isPlaying = false;
     this.shown = null; // the step and the document that the page tells of
-    this.playButton = button("Play", () => this.toggle(), { class: "primary play", title: "Space" });
+    this.playButton = button("Play", () => this.toggle(), { class: "play", title: "Space" });
     this.scrubber = h("input", { type: "range", min: 0, max: 0, value: 0, step: "any", class: "scrub",
       "aria-label": "Step", oninput: () => this.seek(Number(this.scrubber.value)) });
-    this.text = h("output", { class: "clock" });
+    this.text = h("output", { class: "clock", title: HINT_OF_STEP });
     this.speed = h("input", { type: "range", min: 0, max: SPEEDS.length - 1, value: 5,
       "aria-label": "Steps per second", oninput: () => this.setSpeed(SPEEDS[this.speed.value]) });
     this.speedText = h("span", { class: "unit" });
@@ -101,11 +106,16 @@ export class Clock {
     this.scrubber.disabled = !runs[0];
     this.scrubber.setAttribute("aria-valuetext", `step ${this.step} of ${steps}`);
     this.playButton.disabled = !runs[0] && !live;
+    this.playButton.classList.toggle("primary", !this.playButton.disabled);
     this.playButton.textContent = this.isPlaying || live?.isPlaying ? "Pause" : "Play";
-    if (live) this.text.textContent = `step ${number(steps)}, live`;
-    else this.text.textContent = runs[0] ? `step ${number(this.step)} / ${number(steps)}` : "no plan";
+    if (live) this.text.textContent = `step ${number(steps)} · ${minutes(live.seconds)} live`;
+    else if (!runs[0]) this.text.textContent = "no plan";
+    else this.text.textContent = `step ${number(this.step)} / ${number(steps)}${this.#secondsIn(runs[0])}`;
     this.#showStep(runs.filter(Boolean));
   }
+
+  // How long robots are on their way in the world, where there are metres.
+  #secondsIn({ seconds_per_step: each }) { return each ? ` · ${(this.at * each).toFixed(1)} s` : ""; }
 
   // What depends on the step is made anew only where there is another one.
   #showStep(runs) {

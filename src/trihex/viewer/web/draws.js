@@ -7,6 +7,7 @@ import { arraysOf } from "./documents.js";
 // What those see who open the viewer without a file.
 const FIRST = { generator: "rooms", tessellation: "hexagonal", height: 32, width: 48, seed: 1 };
 const FIRST_ROBOTS = 60;
+const EMPTY = "empty"; // a generator that draws nothing
 
 // The free cell nearest to the middle.
 function middleOf({ barriers, width, height }) {
@@ -27,10 +28,12 @@ export class Draws {
   // Ask which area to make.
   open() {
     const { app } = this, { generators, tessellations } = app.settings;
-    const kind = select("Kind", generators, () => {}), cells = select("Cells", tessellations, () => {});
+    const kind = select("Kind", generators, () => { seed.hidden = chosenIn(kind) === EMPTY; });
+    const cells = select("Cells", tessellations, () => {});
     const side = { min: 1, max: 4096 }, width = numberField("Width", 48, side);
     const height = numberField("Height", 32, side), seed = numberField("Seed", 1, { min: 0 });
     cells.lastChild.value = app.doc.header.tessellation;
+    seed.hidden = chosenIn(kind) === EMPTY; // nothing is drawn by chance
     const make = () => {
       app.dialog.close();
       this.generate({ generator: chosenIn(kind), tessellation: chosenIn(cells), width: Number(chosenIn(width)),
@@ -41,7 +44,7 @@ export class Draws {
   }
 
   async generate(wish) {
-    const answer = await this.#made(wish);
+    const answer = await this.app.make(this.#made(wish));
     if (!answer) return;
     this.count.lastChild.value = Math.max(1, Math.min(200, Math.round((wish.height * wish.width) / 25)));
     this.app.take(answer);
@@ -58,9 +61,10 @@ export class Draws {
 
   async scatter() {
     const { app } = this;
+    await app.ready("Robots are drawn");
     app.leaveLive();
     const { doc } = app, count = Number(chosenIn(this.count)), seed = Number(chosenIn(this.seed));
-    const robots = await this.#robots(count, seed);
+    const robots = await app.make(this.#robots(count, seed));
     if (robots && app.doc === doc) app.change({ robots, header: { ...doc.header, seed } });
   }
 

@@ -54,6 +54,9 @@ export class Field {
     app.refresh();
   }
 
+  // The distances that were looked at have changed.
+  forget() { this.looked = null; }
+
   // The greatest of some distances, at least 1.
   farthest(distance) {
     if (!distance) return 1;

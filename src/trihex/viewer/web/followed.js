@@ -1,12 +1,15 @@
 // Followed: one robot, its path, and its times so far and in the end.
 
-import { h, number } from "./words.js";
+import { h, number, title } from "./words.js";
 import { button, check, labelled, note, row, section } from "./controls.js";
 import { NOT_REACHED } from "./documents.js";
+import { nameOfCell, nameOfRobot } from "./names.js";
+import { OF_ROBOT } from "./sentences.js";
 
 const HINT = "Click a robot to see its path, its moves d, its waits w and its time t.";
 
-const nameOf = (doc, cell) => `(${cell % doc.width}, ${Math.floor(cell / doc.width)})`;
+// The row that a robot has reached by a step.
+const indexAt = (rows, step) => rows.findLastIndex((row) => row.step <= step);
 
 export class Followed {
   constructor(app) {
@@ -21,6 +24,7 @@ export class Followed {
       check(this.centred, "keep it in view")), this.text);
   }
 
+  get #name() { return nameOfRobot(this.robot, this.app.doc.robots.length); }
   get #wanted() { return this.field.value === "" ? -1 : Number(this.field.value); }
 
   follow(robot) {
@@ -47,10 +51,10 @@ export class Followed {
     if (live) return this.#tell(this.#wordsOfLive(live));
     const shown = runs.map((run, i) => ({ run, track: this.tracks[i], pane: app.panes[i] }))
       .filter(({ run, track }) => run && track);
-    if (!shown.length) return this.#tell(`Robot ${robot} starts at ${nameOf(doc, doc.robots[robot])}.`);
+    if (!shown.length) return this.#tell(`${title(this.#name)} starts at ${nameOfCell(doc, doc.robots[robot])}.`);
     this.text.replaceChildren(...shown.map(({ run, track }, i) => this.#tableOf(run, track, i, shown.length > 1)));
     if (!this.centred.checked) return;
-    for (const { track: { rows }, pane } of shown) pane.reveal(rows[Math.min(app.clock.step, rows.length - 1)].cell);
+    for (const { track: { rows }, pane } of shown) pane.reveal(rows[indexAt(rows, app.clock.step)].cell);
   }
 
   // Keep a robot that runs live in view.
@@ -63,18 +67,18 @@ export class Followed {
 
   #wordsOfLive({ distance }) {
     const { doc } = this.app, cell = doc.robots[this.robot];
-    if (cell < 0) return `Robot ${this.robot} has gone.`;
+    if (cell < 0) return `${title(this.#name)} has gone.`;
     const ahead = distance[cell] < NOT_REACHED ? `${number(distance[cell])} to go as far as is known` : "cut off";
-    return `Robot ${this.robot} is at ${nameOf(doc, cell)}, ${ahead}.`;
+    return `${title(this.#name)} is at ${nameOfCell(doc, cell)}, ${ahead}.`;
   }
 
   #tableOf(run, { rows, hasArrived }, i, isNamed) {
-    const { step } = this.app.clock, now = rows[Math.min(step, rows.length - 1)], last = rows[rows.length - 1];
-    const end = hasArrived ? `arrived at step ${rows.length - 1}` : "cannot arrive";
-    const doing = rows[step + 1] ? `next ${rows[step + 1].action}` : end;
-    const words = `robot ${this.robot} at ${nameOf(run.doc, now.cell)}, ${doing}`;
-    const line = (label, of) => h("tr", {}, h("th", { scope: "row" }, label), h("td", {}, number(of(now))),
-      h("td", {}, number(of(last))));
+    const k = indexAt(rows, this.app.clock.step), now = rows[k], last = rows[rows.length - 1];
+    const end = hasArrived ? `arrived at step ${last.step}` : "cannot arrive";
+    const doing = rows[k + 1] ? `next ${rows[k + 1].action}` : end;
+    const words = `${this.#name} at ${nameOfCell(run.doc, now.cell)}, ${doing}`;
+    const line = (label, of) => h("tr", { title: OF_ROBOT[label] }, h("th", { scope: "row" }, label),
+      h("td", {}, number(of(now))), h("td", {}, number(of(last))));
     const heads = ["so far", "in the end"].map((head) => h("th", { scope: "col" }, head));
     return h("div", {},
       h("p", { class: `note run${i}` }, `${isNamed ? `${run.summary.planner}: ` : ""}${words}`),

@@ -2,6 +2,7 @@
 
 import { NOT_REACHED, shapeOf } from "./documents.js";
 import { packed, css, isLight, mix } from "./colours.js";
+import { leaksOf } from "./leaks.js";
 import { strokeEach } from "./marks.js";
 
 const OUTLINES_FROM = 9, ARROWS_FROM = 15, NUMBERS_FROM = 25; // device pixels an edge step
@@ -12,8 +13,10 @@ const MOST_RINGS = 500; // destinations
 export function drawGround(pane, palette) {
   const cells = visibleCells(pane), { scale } = pane.view;
   if (cells && scale >= OUTLINES_FROM) drawOutlines(pane, cells);
+  if (cells && scale >= OUTLINES_FROM) drawLeaks(pane, cells, palette);
   if (cells && pane.values && scale >= ARROWS_FROM) drawField(pane, cells, palette);
   drawDestinations(pane, palette);
+  if (pane.paths) drawPaths(pane, palette);
   if (pane.track) drawTrack(pane);
 }
 
@@ -50,7 +53,7 @@ function visibleCells(pane) {
   if ((x1 - x0) * (y1 - y0) > MOST_OUTLINED) return null;
   const cells = [];
   for (let y = y0; y < y1; y++) for (let x = x0; x < x1; x++) cells.push([x, y]);
-  return cells;
+  return cells.length ? cells : null;
 }
 
 function drawOutlines(pane, cells) {
@@ -69,6 +72,20 @@ function drawOutlines(pane, cells) {
   c.strokeStyle = pane.options.dark ? "rgba(0,0,0,0.45)" : "rgba(60,64,72,0.28)";
   c.lineWidth = 1;
   c.stroke();
+}
+
+// A gap in the wall where robots squeeze through.
+function drawLeaks(pane, cells, palette) {
+  const { doc, view, paperContext: c } = pane, [x0, y0] = cells[0], [x1, y1] = cells[cells.length - 1];
+  const radius = Math.max(1.5, view.scale * 0.14);
+  c.fillStyle = css(palette.free);
+  c.beginPath();
+  for (const [x, y] of leaksOf(doc, [x0, y0, x1 + 1, y1 + 1])) {
+    const px = x * view.scale + view.left, py = y * view.scale + view.top;
+    c.moveTo(px + radius, py);
+    c.arc(px, py, radius, 0, 2 * Math.PI);
+  }
+  c.fill();
 }
 
 function drawField(pane, cells, palette) {
@@ -134,17 +151,30 @@ function drawDestinations(pane, palette) {
 }
 
 function drawTrack(pane) {
-  const { doc, view, paperContext: c, track } = pane;
+  const { view, paperContext: c, track } = pane;
   c.lineJoin = c.lineCap = "round";
   const [below, above] = pane.options.dark ? ["#000", "#ffb000"] : ["#fff", "#b3005e"];
   const width = (least) => Math.max(least, view.scale * 0.04 * least), lines = [[width(5), below], [width(2.5), above]];
-  strokeEach(c, lines, () => track.forEach((cell, k) => {
+  strokeEach(c, lines, () => layWay(pane, track));
+}
+
+// All ways, each so faint that one sees where many go.
+function drawPaths(pane, palette) {
+  const { paths, view, paperContext: c } = pane, shade = css(palette.path, paths.length > 200 ? 0.25 : 0.45);
+  c.lineJoin = c.lineCap = "round";
+  for (const way of paths) strokeEach(c, [[Math.max(1.2, view.scale * 0.08), shade]], () => layWay(pane, way));
+}
+
+// The line of a way from cell to cell, through the corners that it passes.
+function layWay(pane, way) {
+  const { doc, view, paperContext: c } = pane;
+  way.forEach((cell, k) => {
     const [px, py] = pane.pointOf(cell);
     if (!k) return c.moveTo(px, py);
-    const [qx, qy] = pane.pointOf(track[k - 1]), before = track[k - 1], { bend, orientation } = shapeOf(doc);
+    const [qx, qy] = pane.pointOf(way[k - 1]), before = way[k - 1], { bend, orientation } = shapeOf(doc);
     const side = orientation(before % doc.width, Math.floor(before / doc.width));
     const [bx, by] = bend(side, (px - qx) / view.scale, (py - qy) / view.scale);
     if (bx || by) c.lineTo((px + qx) / 2 + bx * view.scale, (py + qy) / 2 + by * view.scale);
     return c.lineTo(px, py);
-  }));
+  });
 }

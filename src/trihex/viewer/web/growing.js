@@ -26,6 +26,7 @@ export class Growing {
 
   async toggle() {
     const { app } = this;
+    await app.ready("The field grows");
     app.leaveLive();
     const { growth } = this;
     if (!growth || !sameField(growth.doc, app.doc)) return this.#begin();

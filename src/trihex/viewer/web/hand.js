@@ -1,6 +1,7 @@
 // Hand: pointers on the panes, and what they do there with a tool.
 
 import { HIDDEN, Still } from "./playback.js";
+import { nameOfCell } from "./names.js";
 import { pointOfRobot } from "./robots.js";
 import { Stroke, brushed, isSameDocument } from "./stroke.js";
 
@@ -44,8 +45,9 @@ export class Hand {
     if (this.pointers.size === 2) return this.#beginPinch();
     const isPan = button === 1 || button === 2 || shiftKey || i === 1 || tool === "move";
     const cell = pane.cellAt(px, py);
+    if (!isPan && app.tools.strikes) return this.#strike(px, py);
     if (!isPan) return this.#beginStroke(cell, px, py);
-    const canHold = i === 0 && button === 0 && app.host && tool === "move" && cell >= 0;
+    const canHold = i === 0 && button === 0 && app.canEdit && tool === "move" && cell >= 0;
     const held = canHold ? this.#thingAt(cell) : null;
     this.stroke = { kind: held && app.clock.at === 0 ? "carry" : "pan", px, py, cell, held, moved: 0 };
   }
@@ -117,10 +119,20 @@ export class Hand {
 
   // ---- robots and destinations
 
-  // Click: the robot nearest to the pointer, if it is near.
+  // Click: follow the robot nearest to the pointer, if it is near.
   pick(i, { px, py }) {
+    if (this.app.panes[i].robots) this.app.followed.follow(this.#nearest(i, px, py));
+  }
+
+  // Break or delay the robot of a live run that is nearest.
+  #strike(px, py) {
+    const { app } = this, robot = this.#nearest(0, px, py);
+    if (robot < 0) return app.say("There is no robot: click one.", true);
+    return app.live.strike(robot, app.tools.chosen);
+  }
+
+  #nearest(i, px, py) {
     const pane = this.app.panes[i], { robots, view } = pane, { fraction } = this.app;
-    if (!robots) return;
     const { state } = robots, reach = Math.max(10, view.scale * 0.6);
     let best = -1, least = reach * reach;
     for (let r = 0; r < robots.count; r++) {
@@ -128,7 +140,7 @@ export class Hand {
       const [x, y] = pointOfRobot(pane, r, fraction), dx = x - px, dy = y - py;
       if (dx * dx + dy * dy < least) [best, least] = [r, dx * dx + dy * dy];
     }
-    this.app.followed.follow(best);
+    return best;
   }
 
   #thingAt(cell) {
@@ -158,10 +170,11 @@ export class Hand {
 
   // Use the tool on one cell.
   tap(cell, px, py) {
+    if (this.app.tools.strikes) return this.#strike(px, py);
     this.#beginStroke(cell, px, py);
     const { stroke } = this;
     this.stroke = null;
-    this.#endStroke(stroke);
+    return this.#endStroke(stroke);
   }
 
   #beginStroke(cell, px, py) {
@@ -208,7 +221,7 @@ export class Hand {
       return app.edit(after);
     }
     app.refresh();
-    const [cell] = stroke.touched, place = `(${cell % doc.width}, ${Math.floor(cell / doc.width)})`;
+    const [cell] = stroke.touched, place = nameOfCell(doc, cell);
     if (cell === undefined || !doc.barriers[cell] || stroke.kind === "wall") return;
     app.say(`Cell ${place} is a barrier: erase it first.`, true);
   }

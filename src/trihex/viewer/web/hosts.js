@@ -3,10 +3,17 @@
 
 import { decode, encode } from "./bundles.js";
 
+// A server on this computer.
 export class HttpHost {
-  async ask(header, arrays, { signal, onFrame } = {}) {
+  get canEdit() { return true; }
+
+  async request(header, arrays, signal) {
     const headers = { "Content-Type": "application/octet-stream" };
-    const response = await fetch("ask", { method: "POST", body: encode(header, arrays), signal, headers });
+    return fetch("ask", { method: "POST", body: encode(header, arrays), signal, headers });
+  }
+
+  async ask(header, arrays, { signal, onFrame } = {}) {
+    const response = await this.request(header, arrays, signal);
     if (!response.ok) throw new Error(await response.text());
     const reader = response.body.getReader();
     let chunks = [], size = 0;
@@ -35,7 +42,23 @@ export class HttpHost {
   }
 }
 
+// A folder with the answers that were made beforehand, as site.py names them.
+export class SiteHost extends HttpHost {
+  get canEdit() { return false; }
+
+  async request({ op, plan, planner, tessellation, document }, arrays, signal) {
+    const shape = tessellation ?? document?.tessellation;
+    const name = { bound: `bound-${plan}`, plan: `plan-${planner}-${shape}` }[op] ?? op;
+    const response = await fetch(`answers/${name}.bin`, { signal });
+    return response.ok ? response : new Response("This page does not hold that; trihex view does.", { status: 404 });
+  }
+}
+
+// A notebook.
 export class ModelHost {
+  get canEdit() { return true; }
+
+
   constructor(model) {
     this.model = model;
     this.waiting = new Map();

@@ -3,12 +3,15 @@
 import { showHelp } from "./help.js";
 
 const TEXTS = "input:not([type=range]):not([type=checkbox]):not([type=radio]), select, textarea";
-const PRESSED = "button, summary, input, canvas"; // what the space bar presses itself
+const PRESSED = "button, summary, select, input[type=checkbox], input[type=radio]"; // what the space bar presses itself
+const WRITTEN = "input[type=text], input[type=search], textarea"; // where it writes
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
 export class Keys {
   constructor(app) {
     this.app = app;
+    this.isTabbing = false; // whether the focus went where it is by the keyboard
+    this.isHeld = false; // whether the space bar is down, and has been answered
     app.panes.forEach(({ canvas }, i) => {
       canvas.addEventListener("keydown", (event) => this.#onCanvas(event, i));
       canvas.addEventListener("blur", () => this.setCursor(-1));
@@ -19,6 +22,8 @@ export class Keys {
   listen() {
     const { shell, settings, listeners: { signal } } = this.app;
     shell.addEventListener("keydown", (event) => this.#onPage(event));
+    shell.addEventListener("keyup", (event) => this.#onRelease(event));
+    shell.addEventListener("pointerdown", () => { this.isTabbing = false; });
     if (settings.host === "notebook") return;
     const outside = (event) => { if (!shell.contains(event.target)) this.#onPage(event); };
     document.addEventListener("keydown", outside, { signal });
@@ -30,11 +35,23 @@ export class Keys {
     const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
     const isText = target.matches?.(TEXTS), isCommand = event.ctrlKey || event.metaKey;
     let does;
-    if (isCommand) does = app.host && !isText ? this.#command(key, event.shiftKey) : undefined;
-    else if (!isText && !altKey && !(key === " " && target.matches?.(PRESSED))) does = this.#action(key);
+    if (key === "Tab") this.isTabbing = true;
+    if (isCommand) does = app.canEdit && !isText ? this.#command(key, event.shiftKey) : undefined;
+    else if (!altKey && (key === " " ? this.#isFree(target) : !isText)) does = this.#action(key);
     if (!does) return;
     event.preventDefault();
+    this.isHeld = key === " ";
     does();
+  }
+
+  // The space bar plays, whatever was clicked last; only who came to a control by the keyboard presses it.
+  #isFree(target) { return !target.matches?.(WRITTEN) && !(this.isTabbing && target.matches?.(PRESSED)); }
+
+  // Some browsers press a button when the bar is released.
+  #onRelease(event) {
+    if (event.key !== " " || !this.isHeld) return;
+    this.isHeld = false;
+    event.preventDefault();
   }
 
   #command(key, hasShift) {
@@ -46,14 +63,15 @@ export class Keys {
   }
 
   #action(key) {
-    const { app } = this, { clock, stage, host } = app, tool = host && app.tools.ofKey(key);
+    const { app } = this, { clock, stage, host, canEdit } = app, tool = canEdit && app.tools.ofKey(key);
     if (tool) return () => app.tools.choose(tool);
     return {
       " ": () => clock.toggle(), ",": () => clock.back(), ".": () => clock.forth(),
       "[": () => clock.faster(-1), "]": () => clock.faster(1),
       "+": () => stage.zoom(1.4), "=": () => stage.zoom(1.4), "-": () => stage.zoom(1 / 1.4), 0: () => stage.fit(),
-      p: () => host && app.planning.plan(0), l: () => host && app.livePanel.toggle(),
-      "?": () => showHelp(app.dialog), Escape: () => app.questions.cancel(),
+      p: () => host && app.planning.plan(0), l: () => canEdit && app.livePanel.toggle(),
+      Home: () => clock.seek(0), End: () => clock.seek(app.steps),
+      "?": () => showHelp(app), Escape: () => app.questions.cancel(),
     }[key];
   }
 
@@ -63,10 +81,8 @@ export class Keys {
       event.preventDefault();
       return this.setCursor(this.#moved(pane, step, event.shiftKey ? 10 : 1), i);
     }
-    if (event.key !== "Enter" && event.key !== " ") return;
-    if (cursor < 0 && event.key === "Enter") return;
+    if (event.key !== "Enter" || cursor < 0) return;
     event.preventDefault();
-    if (cursor < 0) return app.clock.toggle();
     const [px, py] = pane.pointOf(cursor);
     if (i || app.tools.chosen === "move") return app.hand.pick(i, { px, py });
     app.hand.tap(cursor, px, py);

@@ -4,10 +4,12 @@ import { h, number } from "./words.js";
 import { css } from "./colours.js";
 import { STRANDED } from "./playback.js";
 
+const TO_GO = "The least cost of a way to a destination, in time units, for a robot that nobody is in the way of.";
+
 export class Legend {
   constructor(app) {
     this.app = app;
-    this.element = h("div", { class: "legend", "aria-label": "Legend" });
+    this.element = h("div", { class: "legend", role: "group", "aria-label": "Legend" });
   }
 
   show() {
@@ -22,12 +24,14 @@ export class Legend {
 
   #entries() {
     const { live, runs: [run], doc, field, stage } = this.app, { values } = this.app.panes[0];
-    const entries = [["barrier", "barrier", "cell"], ["destination", "destination"]];
+    const entries = [["barrier", doc.ground ? "wall" : "barrier", "cell"], ["destination", "destination"]];
+    if (doc.ground) entries.splice(1, 0, ["tight", "robots do not fit", "cell"]);
     if (live?.known) entries.push(["fog", "not seen", "cell"], ["fog_barrier", "barrier not seen", "cell"]);
     if (live) {
-      entries.push(["moving", "moving"], ["waiting", "waiting"]);
-      if (live.delays) entries.push(["late", "late"]);
-      if (live.last.cut_off) entries.push(["stranded", "cut off"]);
+      entries.push(["moving", "moving"], ["waiting", "waiting"], ["final", "arriving"]);
+      if (live.hasLate) entries.push(["late", "late"]);
+      const { cut_off: cutOff, broken } = live.last, words = [cutOff && "cut off", broken && "broken"].filter(Boolean);
+      if (words.length) entries.push(["stranded", words.join(" or ")]);
     } else if (run) entries.push(["moving", "moving"], ["waiting", "waiting"], ["final", "arriving"]);
     else if (doc.robots.length) entries.push(["moving", "robot"]);
     const isStranded = run?.summary.unreachable || stage.still?.robots.state.includes(STRANDED);
@@ -41,6 +45,6 @@ export class Legend {
     if (!pane.values) return [];
     const ramp = h("i", { class: "ramp" }), shades = [0, 64, 128, 192, 255].map((i) => css(palette.distance[i]));
     ramp.style.background = `linear-gradient(to right, ${shades.join(",")})`;
-    return [h("span", {}, "0 ", ramp, ` ${number(pane.options.most)} to go`)];
+    return [h("span", { title: TO_GO }, "0 ", ramp, ` ${number(pane.options.most)} to go`)];
   }
 }

@@ -4,13 +4,15 @@
 // of the picture. What a hand does goes with the next request, at once if none is on its way. The document of the page
 // is then that of the run.
 
-import { number, plural } from "./words.js";
+import { number, plural, title } from "./words.js";
 import { complaintOf } from "./hosts.js";
+import { nameOfRobot } from "./names.js";
 import { WAITING } from "./playback.js";
 import { Runners } from "./runners.js";
 
 const IS_BARRIER = 1, IS_DESTINATION = 2, IS_KNOWN = 4; // as in live.py
 const REFUSED_FOR = 1500; // milliseconds that a cross stays on a cell
+const LATE_STEPS = 10; // that a robot stands still
 const MOST_EVENTS = 2000, MOST_STEPS = 8; // in one request
 
 export class Live {
@@ -19,7 +21,8 @@ export class Live {
     const cells = doc.barriers.length;
     this.app = app;
     this.name = answer.header.live;
-    this.delays = delays;
+    this.hasLate = delays > 0; // whether some robots are late now and then
+    this.seconds = 0; // that it has run
     this.doc = { ...doc, barriers: new Uint8Array(cells) };
     this.runners = new Runners();
     this.world = new Uint8Array(cells); // of each cell, what the page knows: bits as above
@@ -51,6 +54,7 @@ export class Live {
   tick(passed) {
     const speed = this.app.clock.stepsPerSecond, length = this.stride / speed;
     this.fraction = Math.min(1, this.fraction + passed / length);
+    if (this.isPlaying && !this.last.is_over) this.seconds += passed;
     if (this.fraction >= 1) this.runners.settle();
     while (this.frames.length && (!this.frames[0].isStep || this.fraction >= 1)) this.adopt(this.frames.shift());
     const lead = Math.min(length, 1.5 * this.latency + 0.01), isWanted = this.isPlaying || this.wantsStep;
@@ -101,6 +105,7 @@ export class Live {
     const { world_cells: cells, world, distance_cells: farther, distance } = arrays, { last } = this;
     this.last = header;
     for (let i = 0; i < farther.length; i++) this.distance[farther[i]] = distance[i];
+    if (farther.length) this.app.field.forget();
     if (cells.length) this.#adoptWorld(cells, world);
     this.runners.move(this.doc, arrays.cells, arrays.sets, isStep ? header.step - this.shownStep : 0);
     this.doc = { ...this.doc, robots: this.runners.places() };
@@ -111,7 +116,7 @@ export class Live {
     this.#tellRefused(header);
     if (header.is_over && !last.is_over && header.step) this.#end();
     if (!header.is_over) this.summary = null;
-    if (!last.cut_off !== !header.cut_off) this.app.stage.legend.show();
+    if (!last.cut_off !== !header.cut_off || !last.broken !== !header.broken) this.app.stage.legend.show();
     this.app.showNumbers();
   }
 
@@ -168,10 +173,10 @@ export class Live {
   }
 
   async #end() {
-    const { app } = this, { cut_off: cutOff } = this.last, hasEnd = this.doc.destinations.length;
+    const { app } = this, { cut_off: cutOff, broken } = this.last, hasEnd = this.doc.destinations.length;
     const next = hasEnd ? "erase a wall to open a way" : "there is no destination; set one";
     if (cutOff) app.say(`${plural(cutOff, "robot")} ${cutOff === 1 ? "is" : "are"} cut off: ${next}.`, true);
-    else app.say("All robots have arrived. Save the run, or let others join.");
+    else app.say(`${broken ? "All but the broken" : "All robots"} have arrived. Save the run, or let others join.`);
     try {
       const { header } = await app.host.ask({ op: "judge", live: this.name });
       if (app.live !== this || !this.last.is_over) return;
@@ -188,6 +193,15 @@ export class Live {
     const where = { ...(cell === null ? {} : { cell: place(cell) }), ...(to === undefined ? {} : { to: place(to) }) };
     this.events.push({ kind, ...where, ...more });
     this.app.stage.invalidate();
+  }
+
+  // What a tool does to a robot.
+  strike(robot, tool) {
+    const { app } = this, name = title(nameOfRobot(robot, this.doc.robots.length)), isLate = tool === "late";
+    this.tell(tool, null, isLate ? { robot, steps: LATE_STEPS } : { robot });
+    if (isLate) this.hasLate = true;
+    app.say(isLate ? `${name} stands still for ${LATE_STEPS} steps.` : `${name} breaks down: a barrier to all others.`);
+    app.stage.legend.show();
   }
 
   // What a tool does to a cell of the running world; the host may refuse it.

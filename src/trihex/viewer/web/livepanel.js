@@ -1,6 +1,6 @@
 // Live panel: how robots are to run live, and the document and the plans to come back to.
 
-import { h } from "./words.js";
+import { h, number } from "./words.js";
 import { button, check, chosenIn, grid, note, numberField, numberIn, row, section, select } from "./controls.js";
 import { arraysOf } from "./documents.js";
 import { Live } from "./live.js";
@@ -24,6 +24,7 @@ export class LivePanel {
     this.replan = h("input", { type: "checkbox" });
     this.fields = grid(this.planner, this.sense, this.late, this.budget, check(this.sight, "line of sight"),
       check(this.replan, "plan at each change"));
+    this.#explain();
     this.button = button("Run live", () => this.toggle(), { class: "primary", title: "L" });
     this.keepButton = button("Keep this world", () => this.keep(), { hidden: true, title: HINT_OF_KEEPING });
     this.element = section("Live", note(HINT_OF_LIVE), this.fields, row(this.button, this.keepButton));
@@ -37,16 +38,43 @@ export class LivePanel {
     };
   }
 
+  #explain() {
+    for (const [field, hint] of [
+      [this.planner, "Who decides what robots do next: fcost and greedy step by step, others by plans."],
+      [this.sense, "How far robots see around them; empty: they know the whole area."],
+      [this.late, "How many robots in a hundred stand still in each step, by chance."],
+      [this.budget, "How long a plan may take before robots go on step by step."],
+      [this.sight.parentElement, "Robots do not see through walls."],
+      [this.replan.parentElement, "Also fcost and greedy make a whole plan whenever the world has changed."],
+    ]) field.setAttribute("title", hint);
+  }
+
   toggle() { return this.run ? this.leave() : this.#start(); }
 
   async #start() {
-    const { app } = this, missing = app.missing();
+    const { app } = this;
+    await app.ready("Robots run");
+    const missing = app.missing();
     if (missing) return app.say(missing, true);
     const { doc, runs, fields: known } = app, wish = this.#wish;
     app.growing.end();
     const answer = await app.ask({ op: "live", ...wish, ...app.request }, arraysOf(doc), "Starting…");
     if (!answer || app.doc !== doc) return;
-    this.before = { doc, runs, known };
+    this.#begin(answer, wish, { doc, runs, known });
+    app.say("Robots are running: paint walls in their way.");
+  }
+
+  // Watch a run of a file again: the robots do what they did, until a hand changes something.
+  watch(answer) {
+    const { app } = this, { watched } = answer.header;
+    app.take(answer);
+    this.#begin(answer, watched, { doc: app.doc, runs: app.runs, known: app.fields });
+    app.say(`This run of ${number(watched.steps)} steps is played again. Change something, and it goes another way.`);
+  }
+
+  #begin(answer, wish, before) {
+    const { app } = this, { doc } = before;
+    this.before = before;
     app.clock.rewind();
     app.clock.pause();
     this.run = new Live(app, doc, answer, wish);
@@ -54,8 +82,8 @@ export class LivePanel {
     this.run.adopt(answer);
     app.field.replace({ doc: app.doc, distance: this.run.distance, directions: null });
     app.tools.choose("wall");
-    app.say("Robots are running: paint walls in their way.");
     app.refresh();
+    app.panel.reveal(app.results.element);
   }
 
   // Back to the document and the plans from before.

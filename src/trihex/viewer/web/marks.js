@@ -3,15 +3,16 @@
 import { shapeOf } from "./documents.js";
 import { isLight } from "./colours.js";
 import { HIDDEN } from "./playback.js";
+import { signOf } from "./names.js";
 import { coloursOf, pointOfRobot } from "./robots.js";
 
 const NAMED_FROM = 24; // device pixels an edge step
 const MOST_NAMED = 3000; // robots
 
-// Numbers of robots, the halo of the followed one, what was refused, the cell of the keyboard.
+// Names of robots, the halo of the followed one, what was refused, the cell of the keyboard.
 export function drawMarks(pane, fraction) {
   const { robots, view, follow, crosses, cursor, doc } = pane;
-  if (robots && view.scale >= NAMED_FROM && robots.count <= MOST_NAMED) drawNumbers(pane, fraction);
+  if (robots && view.scale >= NAMED_FROM && robots.count <= MOST_NAMED) drawNames(pane, fraction);
   if (robots && follow >= 0 && follow < robots.count && robots.state[follow] !== HIDDEN) drawHalo(pane, fraction);
   for (const cell of crosses) drawCross(pane, cell);
   if (cursor >= 0 && cursor < doc.barriers.length) drawCursor(pane);
@@ -28,7 +29,7 @@ export function strokeEach(context, lines, path) {
   }
 }
 
-function drawNumbers(pane, fraction) {
+function drawNames(pane, fraction) {
   const { context: c, view, robots: { count, state }, canvas: { width, height } } = pane;
   const colours = coloursOf(pane.palette());
   c.textAlign = "center";
@@ -39,7 +40,7 @@ function drawNumbers(pane, fraction) {
     const [px, py] = pointOfRobot(pane, r, fraction);
     if (px < -20 || py < -20 || px > width + 20 || py > height + 20) continue;
     c.fillStyle = isLight(colours[state[r]]) ? "#101114" : "#ffffff";
-    c.fillText(String(r), px, py + 1);
+    c.fillText(signOf(r, count), px, py + 1);
   }
 }
 

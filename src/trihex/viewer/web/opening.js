@@ -1,7 +1,7 @@
 // Opening: files of the folder, or of this computer, that become the document.
 
 import { h, number } from "./words.js";
-import { button, check, labelled, numberField, select } from "./controls.js";
+import { button, check, endRow, labelled, numberField, select } from "./controls.js";
 import { chosenIn, grid, inner, note, numberIn, row } from "./controls.js";
 import { arraysOf } from "./documents.js";
 
@@ -76,7 +76,8 @@ export class Opening {
   #openName(name, wish) {
     const { app } = this;
     app.leaveLive();
-    return this.#opened({ op: "open", name, in_folder: true, ...wish, ...app.request }, arraysOf(app.doc));
+    const request = { op: "open", name, in_folder: true, ...wish, ...app.request };
+    return app.make(this.#opened(request, arraysOf(app.doc)));
   }
 
   async openFile(file, wish = {}) {
@@ -87,15 +88,31 @@ export class Opening {
     app.leaveLive();
     const content = new Uint8Array(await file.arrayBuffer());
     const request = { op: "open", name, in_folder: false, ...wish, ...app.request };
-    return this.#opened(request, { ...arraysOf(app.doc), content });
+    return app.make(this.#opened(request, { ...arraysOf(app.doc), content }));
+  }
+
+  // A place in metres is covered by cells: ask of which size.
+  #askSize(request, arrays) {
+    const { app } = this, size = numberField("Cell size in metres", 0.5, { min: 0, step: "any" });
+    const radius = numberField("Robot radius in metres", 0, { min: 0, step: "any" });
+    const open = () => {
+      app.dialog.close();
+      app.make(this.#opened({ ...request, cell_size: numberIn(size), robot_radius: numberIn(radius) }, arrays));
+    };
+    app.dialog.open("How large shall cells be?",
+      note(`${request.name} is a place in metres: it will be covered by cells whose centres lie so far apart. `,
+        "Robots of the radius, if one is given, touch neither walls nor each other."),
+      grid(size, radius), endRow(button("Open", open, { class: "primary" })));
   }
 
   async #opened(request, arrays) {
     const { app } = this, { name } = request, answer = await app.ask(request, arrays, `Opening ${name}…`);
     if (!answer) return;
+    if (answer.header.needs === "cell_size") return this.#askSize(request, arrays);
     app.clock.rewind();
     app.followed.drop();
     app.say("");
+    if (answer.header.watched) return app.livePanel.watch(answer);
     app.take(answer);
     const next = app.runs[0] ? "Press Play." : app.missing() || "Press Plan.", { width, height } = app.doc;
     app.say(`Opened ${name}: ${number(width)} × ${number(height)} cells. ${next}`);

@@ -1,10 +1,12 @@
 // Pane: one canvas, cells below, robots above.
 
 import { NOT_REACHED, shapeOf, centreOf } from "./documents.js";
-import { DARK, LIGHT, packed, mix } from "./colours.js";
+import { DARK, LIGHT, between, packed, mix } from "./colours.js";
 import { darkenBarriers, drawGround } from "./ground.js";
 import { drawMarks } from "./marks.js";
 import { plotRobots } from "./robots.js";
+import { drawScaleBar } from "./scalebar.js";
+import { drawUnderground } from "./underground.js";
 
 // Where the cells are on a canvas: device pixels an edge step, and the north-west corner.
 class View {
@@ -34,12 +36,14 @@ export class Pane {
     this.options = {}; // dark, growing, most (distance), arrows, numbers, steps (of directions)
     this.follow = -1;
     this.track = null; // cells of the followed robot
+    this.paths = null; // cells of all robots, or null where they are not shown
     this.cursor = -1;
     this.known = null; // of each cell, whether a robot has seen it; null if all are known
     this.crosses = []; // cells where something was refused
     this.isStale = { map: true, base: true, colours: true };
     this.isRough = false; // while a hand moves the picture
     this.sprites = new Map();
+    this.colouring = null; // the palette, and what it depends on
   }
 
   resize(width, height) {
@@ -138,8 +142,15 @@ export class Pane {
     if (dx || dy) this.pan(dx, dy);
   }
 
+  // The colours of now; a field is paler where there are robots to be seen on it.
   palette() {
-    return { ...this.colours, ...(this.options.dark ? DARK : LIGHT) };
+    const { options: { dark }, robots } = this, isPale = robots?.count > 0, key = `${dark} ${isPale}`;
+    if (this.colouring?.key === key) return this.colouring.palette;
+    const plain = { ...this.colours, ...(dark ? DARK : LIGHT) }, { free } = plain;
+    const pale = (shade) => between(shade, free, dark ? 0.6 : 0.5);
+    const palette = isPale ? { ...plain, distance: plain.distance.map(pale) } : plain;
+    this.colouring = { key, palette };
+    return palette;
   }
 
   #map() {
@@ -180,7 +191,8 @@ export class Pane {
     const palette = this.palette(), colour = this.#colourOfCells(palette), page = packed(palette.page);
     const { base32, cellOfPixel, view, paperContext } = this;
     for (let p = 0; p < base32.length; p++) base32[p] = cellOfPixel[p] < 0 ? page : colour[cellOfPixel[p]];
-    if (view.scale < 1 && !this.isRough) darkenBarriers(this, palette);
+    if (this.doc.ground) drawUnderground(this, palette);
+    else if (view.scale < 1 && !this.isRough) darkenBarriers(this, palette);
     paperContext.putImageData(this.base, 0, 0);
     drawGround(this, palette);
     this.base.data.set(paperContext.getImageData(0, 0, this.canvas.width, this.canvas.height).data);
@@ -194,5 +206,6 @@ export class Pane {
     if (this.robots) plotRobots(this, fraction);
     this.context.putImageData(this.frame, 0, 0);
     drawMarks(this, fraction);
+    drawScaleBar(this);
   }
 }

@@ -1,18 +1,29 @@
 // Planning: who plans, for this document and beside it.
 
 import { h, number, plural, title } from "./words.js";
-import { button, chosenIn, grid, inner, labelled, row, section, select } from "./controls.js";
+import { button, chosenIn, grid, inner, labelled, note, row, section, select } from "./controls.js";
 import { arraysOf } from "./documents.js";
 import { runOf } from "./runs.js";
 
 const SAME_CELLS = "the same cells";
 
-function optionField(name, value) {
-  const kind = typeof value === "number" ? "number" : "text";
+// A field for an option: a menu where there are choices, each with a line.
+function optionField(name, value, hints = {}) {
+  const choices = Object.keys(hints).filter(Boolean), line = note(hints[""] ?? "");
+  const label = title(name.replace(/_/g, " ")), more = { "aria-label": label, "data-option": name };
+  if (choices.length) {
+    const tell = () => { line.textContent = hints[menu.value]; };
+    const menu = h("select", { ...more, onchange: tell },
+      choices.map((choice) => h("option", { value: choice, title: hints[choice] }, title(choice))));
+    menu.value = value;
+    tell();
+    return h("div", { class: "wide" }, labelled(label, menu), line);
+  }
+  const kind = typeof value === "string" ? "text" : "number";
   const input = typeof value === "boolean"
-    ? h("input", { type: "checkbox", checked: value, "data-option": name })
-    : h("input", { type: kind, step: "any", value: value ?? "", placeholder: "default", "data-option": name });
-  return labelled(name.replace(/_/g, " "), input);
+    ? h("input", { type: "checkbox", checked: value, ...more })
+    : h("input", { type: kind, step: "any", value: value ?? "", placeholder: "as usual", ...more });
+  return h("div", { class: "wide" }, labelled(label, input), line);
 }
 
 function optionIn(input, usual) {
@@ -25,32 +36,51 @@ function optionIn(input, usual) {
 export class Planning {
   constructor(app) {
     this.app = app;
+    this.asked = null; // the plan that is on its way: { doc, wish }
     const { planners, tessellations } = app.settings, names = Object.keys(planners);
     this.first = select("Planner", names, () => this.#showOptions());
     this.first.lastChild.value = names.includes("fcost") ? "fcost" : names[0];
+    this.line = note();
+    this.lineBeside = note();
     this.options = inner("Options of the planner", grid());
-    this.beside = select("Beside it", names, () => {}, { "aria-label": "Planner beside it" });
+    this.beside = select("Beside it", names, () => this.#tellBeside(), { "aria-label": "Planner beside it" });
     this.beside.lastChild.value = names.includes("optimal") ? "optimal" : "greedy";
     this.cells = select("on", [SAME_CELLS, ...tessellations], () => {}, { "aria-label": "Cells beside it" });
-    this.endButton = button("One picture", () => this.endCompare(), { hidden: true });
+    // It stands beside Play, where it is always in sight.
+    this.button = button("Plan", () => this.plan(0), { title: "P" });
+    this.endButton = button("End comparing", () => this.endCompare(), { hidden: true });
     this.element = section("Plan",
-      row(this.first, button("Plan", () => this.plan(0), { class: "primary", title: "P" })), this.options,
-      grid(this.beside, this.cells), row(button("Compare", () => this.plan(1)), this.endButton), app.questions.element);
+      this.first, this.line, this.options, grid(this.beside, this.cells), this.lineBeside,
+      row(button("Compare", () => this.plan(1)), this.endButton));
     this.#showOptions();
+    this.#tellBeside();
   }
 
   get planner() { return chosenIn(this.first); }
 
   // Choose the planner that a file names, if there is such a one.
   choose(planner) {
-    if (planner && this.app.settings.planners[planner]) this.first.lastChild.value = planner;
+    if (!planner || !this.app.settings.planners[planner]) return;
+    this.first.lastChild.value = planner;
+    this.#showOptions();
+  }
+
+  // Choose who plans, and who beside it, if there are such planners.
+  pick(first, beside) {
+    this.choose(first);
+    if (this.app.settings.planners[beside]) this.beside.lastChild.value = beside;
+    this.#tellBeside();
   }
 
   #showOptions() {
-    const options = Object.entries(this.app.settings.planners[this.planner]);
+    const { planners, hints } = this.app.settings, { line, options: lines } = hints[this.planner];
+    const options = Object.entries(planners[this.planner]);
+    this.line.textContent = line;
     this.options.hidden = !options.length;
-    this.options.lastChild.replaceChildren(...options.map(([name, value]) => optionField(name, value)));
+    this.options.lastChild.replaceChildren(...options.map(([name, value]) => optionField(name, value, lines[name])));
   }
+
+  #tellBeside() { this.lineBeside.textContent = this.app.settings.hints[chosenIn(this.beside)].line; }
 
   // The options of a planner that are not as usual; there are fields for the first planner only.
   #optionsOf(planner) {
@@ -66,6 +96,7 @@ export class Planning {
   // Plan for the document (0), or beside it (1).
   async plan(which) {
     const { app } = this;
+    await app.ready("Plans are made");
     app.leaveLive();
     const missing = app.missing();
     if (missing) return app.say(missing, true);
@@ -73,12 +104,15 @@ export class Planning {
       await this.plan(0);
       if (!app.runs[0]) return;
     }
-    const { doc } = app, request = this.#request(which);
+    const { doc } = app, request = this.#request(which), wish = JSON.stringify([which, request]);
+    if (app.job && this.asked?.doc === doc && this.asked.wish === wish) return; // it is on its way
     app.clock.pause();
+    this.asked = { doc, wish };
     const answer = await app.ask(request, arraysOf(doc), "Planning…");
+    if (this.asked?.wish === wish) this.asked = null;
     if (!answer || app.doc !== doc) return;
     // The plan plays on the very document of the page, so that an edit is noticed.
-    const run = runOf(answer, which ? null : doc);
+    const run = runOf(answer, which ? null : doc, doc.ground);
     app.history.keep({ doc, runs: app.runs });
     app.growing.end();
     if (!which) app.clock.rewind();
@@ -86,9 +120,10 @@ export class Planning {
     app.clock.seek(0);
     // From here on a click should follow a robot rather than paint a wall, which would undo the plan.
     app.tools.choose("move");
-    app.results.element.scrollIntoView({ block: "nearest" });
+    app.panel.reveal(app.results.element);
     this.bound();
-    if (run === app.runs[which]) this.#tell(run.summary);
+    const { summary } = run;
+    if (run === app.runs[which]) app.say(this.wordsOf(summary), summary.conflicts > 0);
   }
 
   #request(which) {
@@ -97,11 +132,12 @@ export class Planning {
     return which && tessellation !== SAME_CELLS ? { ...request, tessellation } : request;
   }
 
-  #tell({ planner, total_time: total, optimal, unreachable, conflicts }) {
+  // What there is to say of a plan, and what to do next.
+  wordsOf({ planner, total_time: total, optimal, unreachable, conflicts }) {
     const stranded = unreachable ? ` ${plural(unreachable, "robot")} cannot arrive.` : "";
     const unsafe = conflicts ? ` ${plural(conflicts, "conflict")}!` : "";
     const words = `${title(planner || "plan")}: total time ${number(total)}${optimal ? ", proven optimal" : ""}.`;
-    this.app.say(`${words}${stranded}${unsafe} Press Play.`, unsafe !== "");
+    return `${words}${stranded}${unsafe} Press Play.`;
   }
 
   // Better lower bounds take longer than plans: they are asked for while the plan is on the page already. Where the
@@ -123,5 +159,9 @@ export class Planning {
 
   endCompare() { this.app.set(this.app.doc, [this.app.runs[0], null]); }
 
-  show() { this.endButton.hidden = !this.app.runs[1]; }
+  show() {
+    const { runs, live } = this.app;
+    this.endButton.hidden = !runs[1];
+    this.button.classList.toggle("primary", !runs[0] && !live);
+  }
 }

@@ -7,6 +7,9 @@ const WAIT = 255, JUMP = 254;
 
 export const HIDDEN = 0, MOVING = 1, WAITING = 2, FINAL = 3, STRANDED = 4; // and 5, late, in live runs
 
+const MOST_DRAWN = 500000; // actions of robots whose paths are drawn
+
+const KEPT = ["site", "index", "begun"]; // where each robot is along its actions
 const CURVES = ["moving", "waiting", "arrived", "spent", "least_total"]; // by step
 
 // Where the robots of a document stand before there is a plan.
@@ -30,7 +33,7 @@ export class Still {
 }
 
 // Robots of a plan between `step` and the next: from (x0, y0) to (x1, y1), how far the corner that it
-// passes is from the middle, (bx, by), and the set that each belongs to.
+// passes is from the middle, (bx, by), and the set that each belongs to. Moves may last several steps (ticks).
 export class Playback {
   constructor({ header, arrays }, doc) {
     Object.assign(this, { header, doc, steps: header.steps, count: doc.robots.length });
@@ -42,15 +45,21 @@ export class Playback {
     this.curves = {};
     for (const name of CURVES) this.curves[name] = arrays[`${name}_by_step`];
     this.distance = arrays.distance;
-    const { origin, pitch, offsets } = header.layout;
+    const { origin, pitch, offsets, durations } = header.layout;
+    this.duration = new Int32Array(256).fill(1); // of actions, by their bytes
+    this.duration.set(durations);
+    this.hasSteps = durations.every((duration) => duration === 1);
     this.offsets = offsets.map((row) => Int32Array.from(row));
     const siteOf = (cell) => origin + Math.floor(cell / doc.width) * pitch + (cell % doc.width);
     const start = Int32Array.from(doc.robots, siteOf);
+    this.site = start; // whose centre each was at last
+    this.index = this.first.slice(0, this.count); // of the action that it does
+    this.begun = new Int32Array(this.count); // when it began it
+    this.next = new Int32Array(this.count); // the site to which that leads
     // Every so many steps one is kept: as many as fit into some 64 MB.
-    this.every = Math.max(32, Math.ceil((this.steps * this.count) / 2 ** 24));
-    this.kept = [start];
-    this.site = start.slice();
-    this.next = new Int32Array(this.count);
+    this.every = Math.max(32, Math.ceil((KEPT.length * this.steps * this.count) / 2 ** 24));
+    this.kept = [];
+    this.#keep();
     for (const name of ["x0", "y0", "x1", "y1", "bx", "by"]) this[name] = new Float32Array(this.count);
     this.state = new Uint8Array(this.count);
     this.step = 0;
@@ -66,46 +75,75 @@ export class Playback {
       const near = Math.min(Math.floor(step / this.every), this.kept.length - 1);
       if (step < this.step || near * this.every > this.step) {
         this.step = near * this.every;
-        this.site.set(this.kept[near]);
-        this.#advance(this.site, this.step, this.next);
+        for (const name of KEPT) this[name].set(this.kept[near][name]);
+        this.#aim();
       }
     }
     while (this.step < step) {
-      [this.site, this.next] = [this.next, this.site];
       this.step++;
-      const isNew = this.kept.length === this.step / this.every;
-      if (this.step % this.every === 0 && isNew) this.kept.push(this.site.slice());
-      if (this.step < step) this.#advance(this.site, this.step, this.next);
+      this.#finish();
+      if (this.kept.length === this.step / this.every) this.#keep();
+      if (this.step < step) this.#aim();
     }
-    if (isNext) [this.x0, this.y0, this.x1, this.y1] = [this.x1, this.y1, this.x0, this.y0];
+    if (isNext && this.hasSteps) [this.x0, this.y0, this.x1, this.y1] = [this.x1, this.y1, this.x0, this.y0];
     else this.#locate(this.site, this.x0, this.y0);
     this.#lookAhead();
   }
 
   #lookAhead() {
-    this.#advance(this.site, this.step, this.next);
+    this.#aim();
     this.#locate(this.next, this.x1, this.y1);
-    const { first, actions, hasArrived, state, step, site, x0, y0, x1, y1 } = this, { bend } = shapeOf(this.doc);
+    const { first, actions, index, hasArrived, state, site, x0, y0, x1, y1 } = this, { bend } = shapeOf(this.doc);
     for (let r = 0; r < this.count; r++) {
-      const length = first[r + 1] - first[r];
-      const isMove = length > step && actions[first[r] + step] < JUMP;
-      [this.bx[r], this.by[r]] = isMove ? bend(site[r] & 1, x1[r] - x0[r], y1[r] - y0[r]) : [0, 0];
-      if (length <= step) state[r] = hasArrived[r] ? HIDDEN : STRANDED;
-      else if (hasArrived[r] && length === step + 1) state[r] = FINAL;
-      else state[r] = actions[first[r] + step] === WAIT ? WAITING : MOVING;
+      const i = index[r], end = first[r + 1];
+      [this.bx[r], this.by[r]] = i < end && actions[i] < JUMP ? bend(site[r] & 1, x1[r] - x0[r], y1[r] - y0[r]) : [0, 0];
+      if (i === end) state[r] = hasArrived[r] ? HIDDEN : STRANDED;
+      else if (hasArrived[r] && i + 1 === end) state[r] = FINAL;
+      else state[r] = actions[i] === WAIT ? WAITING : MOVING;
+    }
+    if (!this.hasSteps) this.#cut();
+  }
+
+  // Cut from the whole ways what robots do of them from this step to the next.
+  #cut() {
+    const { actions, index, first, begun, duration, step } = this;
+    const at = (from, way, corner, share) => from + share * way + (1 - Math.abs(2 * share - 1)) * corner;
+    for (const [from, to, bend] of [[this.x0, this.x1, this.bx], [this.y0, this.y1, this.by]]) {
+      for (let r = 0; r < this.count; r++) {
+        const lasts = index[r] < first[r + 1] ? duration[actions[index[r]]] : 1, done = step - begun[r];
+        if (lasts === 1) continue;
+        const start = from[r], way = to[r] - start, corner = bend[r];
+        from[r] = at(start, way, corner, done / lasts);
+        to[r] = at(start, way, corner, (done + 1) / lasts);
+        bend[r] = at(start, way, corner, (done + 0.5) / lasts) - (from[r] + to[r]) / 2;
+      }
     }
   }
 
-  #advance(site, step, out) {
-    const { first, actions, offsets } = this;
-    const [even, odd] = offsets;
+  // Where what each does leads.
+  #aim() {
+    const { first, actions, index, site, next } = this, [even, odd] = this.offsets;
     for (let r = 0; r < this.count; r++) {
-      const i = first[r] + step, at = site[r];
-      if (i >= first[r + 1]) out[r] = at;
-      else if (actions[i] < JUMP) out[r] = at + (at & 1 ? odd : even)[actions[i]];
-      else out[r] = actions[i] === WAIT ? at : this.jumpTo[this.#jumpOf(i)];
+      const i = index[r], at = site[r];
+      if (i === first[r + 1]) next[r] = at;
+      else if (actions[i] < JUMP) next[r] = at + (at & 1 ? odd : even)[actions[i]];
+      else next[r] = actions[i] === WAIT ? at : this.jumpTo[this.#jumpOf(i)];
     }
   }
+
+  // What ends in this step.
+  #finish() {
+    const { first, actions, index, begun, site, next, duration, step } = this;
+    for (let r = 0; r < this.count; r++) {
+      const i = index[r];
+      if (i === first[r + 1] || begun[r] + duration[actions[i]] > step) continue;
+      site[r] = next[r];
+      index[r] = i + 1;
+      begun[r] = step;
+    }
+  }
+
+  #keep() { this.kept.push(Object.fromEntries(KEPT.map((name) => [name, this[name].slice()]))); }
 
   #jumpOf(i) {
     let low = 0, high = this.jumpAt.length;
@@ -135,6 +173,16 @@ export class Playback {
     }
   }
 
+  // The cells of the way of each robot, without its waits; null where they would be too many to be drawn.
+  paths() {
+    if (this.actions.length > MOST_DRAWN) return null;
+    this.ways ??= Array.from({ length: this.count }, (_, r) => {
+      const cells = this.robot(r).rows.map(({ cell }) => cell);
+      return cells.filter((cell, k) => !k || cell !== cells[k - 1]);
+    });
+    return this.ways;
+  }
+
   // Cells and times of one robot, from its start to its last action.
   robot(r) {
     const { origin, pitch, costs, names } = this.header.layout;
@@ -143,8 +191,8 @@ export class Playback {
       const y = Math.floor((site - origin) / pitch);
       return y * this.doc.width + (site - origin - y * pitch);
     };
-    let site = this.kept[0][r], d = 0, w = 0;
-    const rows = [{ cell: cellOf(site), d, w, action: "start" }];
+    let site = this.kept[0].site[r], d = 0, w = 0, step = 0;
+    const rows = [{ step, cell: cellOf(site), d, w, action: "start" }];
     for (let i = this.first[r]; i < this.first[r + 1]; i++) {
       const action = this.actions[i], parity = site & 1;
       if (action === WAIT) w += wait;
@@ -154,7 +202,8 @@ export class Playback {
         site += this.offsets[parity][action];
       }
       const name = action === WAIT ? "wait" : action === JUMP ? "jump" : names[parity][action];
-      rows.push({ cell: cellOf(site), d, w, action: name });
+      step += this.duration[action];
+      rows.push({ step, cell: cellOf(site), d, w, action: name });
     }
     return { rows, hasArrived: !!this.hasArrived[r] };
   }

@@ -4,13 +4,15 @@ import { h, number, title } from "./words.js";
 import { button } from "./controls.js";
 import { complaintOf } from "./hosts.js";
 
+const COMPILING = "trihex compiles its code for this computer: up to a minute, once; then plans start at once.";
+
 export class Questions {
   constructor(app) {
     this.app = app;
     this.job = null; // aborts the question that is asked now
     this.progress = h("progress", { max: 1, value: 0, "aria-label": "Progress" });
     this.text = h("span", { class: "note" });
-    this.element = h("div", { class: "row working", hidden: true }, this.progress, this.text,
+    this.element = h("div", { class: "working", hidden: true }, this.progress, this.text,
       button("Cancel", () => this.cancel(), { title: "Escape" }));
   }
 
@@ -22,8 +24,9 @@ export class Questions {
     const onFrame = (frame) => {
       const { kind, stage, done, total } = frame.header;
       if (job.signal.aborted) return;
-      if (kind === "progress") this.#show(`${title(stage)}…`, done, total);
-      else onPart?.(frame);
+      if (kind !== "progress") return onPart?.(frame);
+      if (stage === "compiling") this.app.say(COMPILING);
+      return this.#show(stage === "compiling" ? "Compiling, once:" : `${title(stage)}…`, done, total);
     };
     try {
       return await this.app.host.ask(header, arrays, { signal: job.signal, onFrame });

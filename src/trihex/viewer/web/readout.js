@@ -1,7 +1,16 @@
 // Readout: what is known of the cell under the pointer.
 
 import { h, number } from "./words.js";
-import { NOT_REACHED, shapeOf } from "./documents.js";
+import { NOT_REACHED, centreOf, shapeOf } from "./documents.js";
+import { nameOfCell, nameOfRobot } from "./names.js";
+
+// Where the centre of a cell lies in the world.
+function metresOf(doc, cell) {
+  const [px, py] = centreOf(doc, cell), { cell_size: size, origin, yaw } = doc.header.frame;
+  const east = px * size, north = -py * size, cos = Math.cos(yaw), sin = Math.sin(yaw);
+  const x = origin[0] + east * cos - north * sin, y = origin[1] + east * sin + north * cos;
+  return `x ${x.toFixed(2)} m, y ${y.toFixed(2)} m`;
+}
 
 export class Readout {
   constructor(app) {
@@ -23,11 +32,12 @@ export class Readout {
   }
 
   #there(doc, cell) {
-    const words = [`cell (${cell % doc.width}, ${Math.floor(cell / doc.width)})`];
+    const words = [`cell ${nameOfCell(doc, cell)}`];
     if (doc.barriers[cell]) words.push("barrier");
     else words.push(doc.destinations.includes(cell) ? "destination" : "free");
     const robot = this.app.clock.at === 0 ? doc.robots.indexOf(cell) : -1;
-    if (robot >= 0) words.push(`robot ${robot}`);
+    if (robot >= 0) words.push(nameOfRobot(robot, doc.robots.length));
+    if (doc.header.frame) words.push(metresOf(doc, cell));
     return words;
   }
 

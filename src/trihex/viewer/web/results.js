@@ -1,9 +1,12 @@
 // Results: the numbers of plans, or of a run that is under way.
 
 import { h, number, percent, title } from "./words.js";
-import { note, section } from "./controls.js";
+import { check, note, section } from "./controls.js";
 import { Chart } from "./chart.js";
+import { OF_LIVE, OF_PLAN, UNITS } from "./sentences.js";
 
+const SO_FAR = "The time that robots have used until this step, and the least that the total can still become: that " +
+  "time, and the shortest way of each robot from where it is.";
 const ALONE = "This page plays a plan that was made; robots that run live, while you paint walls in their way, need " +
   "trihex: start trihex view.";
 
@@ -13,12 +16,20 @@ function gapOf({ gap, lower_bound_name: bound }) {
   return bound === "optimum" ? percent(gap) : `at most ${percent(gap)}`;
 }
 
+const secondsIn = (seconds) => (seconds < 100 ? `${Number(seconds.toPrecision(2))} s` : `${number(seconds / 60)} min`);
+
+// What the unit of all times is.
+function unitsOf({ summary: { waiting_cost: wait }, edge_cost: edge }) {
+  return `${UNITS} ${number(edge)}, a wait ${number(wait)}. Point at a number to read what it means.`;
+}
+
 // What a row is called, and what it says of the summary of a plan.
 const ROWS = [
   ["Total time", (summary) => number(summary.total_time)],
   ["Lower bound", (summary) => `${number(summary.lower_bound)} (${summary.lower_bound_name})`],
   ["Gap to the optimum", gapOf],
-  ["Steps", (summary) => number(summary.steps)],
+  ["Steps", ({ steps }, { seconds_per_step: each }) =>
+    `${number(steps)}${each ? ` (${secondsIn(steps * each)} at 1 m/s)` : ""}`],
   ["Moves d", (summary) => number(summary.total_distance)],
   ["Waiting w", (summary) => number(summary.total_waiting)],
   ["Longest t", (summary) => number(summary.longest_time)],
@@ -51,17 +62,21 @@ export class Results {
   constructor(app) {
     this.app = app;
     this.table = h("div", { class: "results" });
-    this.sofar = h("p", { class: "note sofar" });
+    this.sofar = h("div", { class: "sofar", title: SO_FAR });
     this.chart = new Chart(app);
-    this.sets = h("div", { class: "sets", "aria-label": "Robots by set" });
-    const alone = app.host ? null : note(ALONE);
-    this.element = section("Result", this.table, this.sets, this.sofar, this.chart.element, alone);
+    this.sets = h("div", { class: "sets", role: "group", "aria-label": "Robots by set" });
+    const alone = app.canEdit ? null : note(ALONE);
+    this.paths = h("input", { type: "checkbox", onchange: () => this.#showPaths() });
+    this.pathsField = check(this.paths, "All paths");
+    this.element = section("Result", this.pathsField, this.table, this.sets, this.sofar, this.chart.element, alone);
   }
 
+  get hasPaths() { return this.paths.checked; }
   get #runs() { return this.app.runs.filter(Boolean); }
 
   show() {
     const runs = this.#runs;
+    this.pathsField.hidden = !runs.length;
     if (this.app.live) return this.#showLive(this.app.live);
     if (runs.length) return this.#showRuns(runs);
     this.table.replaceChildren(note("No plan yet."));
@@ -74,15 +89,23 @@ export class Results {
     const name = ({ summary: { planner, tessellation } }) => `${planner || "plan"}` +
       `${runs.length > 1 && tessellation !== this.app.doc.header.tessellation ? ` (${tessellation})` : ""}`;
     const heads = runs.map((run, i) => h("th", { scope: "col", class: `run${i}` }, name(run)));
-    const lines = ROWS.map(([label, of]) => h("tr", {}, h("th", { scope: "row" }, label),
-      runs.map((run) => h("td", {}, of(run.summary)))));
+    const lines = ROWS.map(([label, of]) => h("tr", { title: OF_PLAN[label] }, h("th", { scope: "row" }, label),
+      runs.map((run) => h("td", {}, of(run.summary, run)))));
     const conflicts = runs.flatMap((run) => run.conflicts).slice(0, 5).map(({ step, text }) => h("li", {},
       h("button", { type: "button", class: "link", onclick: () => this.app.clock.seek(step - 1) }, text)));
     this.table.replaceChildren(...[
       h("table", {}, h("thead", {}, h("tr", {}, h("td"), heads)), h("tbody", {}, lines)),
-      this.#verdict(runs), conflicts.length ? h("ul", { class: "conflicts" }, conflicts) : null,
+      note(unitsOf(runs[0])), this.#verdict(runs), conflicts.length ? h("ul", { class: "conflicts" }, conflicts) : null,
     ].filter(Boolean));
     this.chart.draw(runs.map(({ playback }) => playback.curves));
+  }
+
+  #showPaths() {
+    const { app } = this;
+    if (this.hasPaths && this.#runs.some(({ playback }) => !playback.paths())) {
+      app.say("These are too many paths to be drawn all: follow one robot.", true);
+    }
+    app.stage.show();
   }
 
   // One sentence on what two plans differ in.
@@ -99,7 +122,7 @@ export class Results {
 
   #showLive(live) {
     const lines = rowsOfLive(live).map(([label, text]) =>
-      h("tr", {}, h("th", { scope: "row" }, label), h("td", {}, text)));
+      h("tr", { title: OF_LIVE[label] }, h("th", { scope: "row" }, label), h("td", {}, text)));
     this.table.replaceChildren(h("table", { class: "live" }, h("tbody", {}, lines)));
     this.sets.replaceChildren();
     this.sofar.textContent = "";
@@ -111,8 +134,8 @@ export class Results {
     const runs = this.#runs, isOne = runs.length === 1;
     this.sets.replaceChildren(...runs.map((run, i) =>
       h("p", { class: `note run${i}` }, isOne ? "" : `${run.summary.planner}: `, this.#setsOf(run.playback, step))));
-    this.sofar.textContent = runs.map((run) =>
-      `${isOne ? "" : `${title(run.summary.planner)}: `}${this.#spentIn(run, step)}`).join(" ");
+    this.sofar.replaceChildren(...runs.map((run) =>
+      note(`${isOne ? "" : `${title(run.summary.planner || "plan")}: `}${this.#spentIn(run, step)}`)));
   }
 
   #setsOf({ curves, steps }, step) {
@@ -121,13 +144,11 @@ export class Results {
     return `${ahead(curves.moving)} moving · ${ahead(curves.waiting)} waiting · ${arrived} arrived`;
   }
 
-  #spentIn({ playback: { curves, steps }, summary: { lower_bound: bound, gap } }, step) {
-    const now = Math.min(step, steps), least = curves.least_total[now];
-    let over = "";
-    if (gap !== null && bound) {
-      over = `, ${least <= bound ? "not" : percent(least / bound - 1)} above the lower bound`;
-      if (least <= bound) over += " so far";
-    }
-    return `${number(curves.spent[now])} spent, ${number(least)} at least in the end${over}.`;
+  #spentIn({ playback: { curves, steps }, summary: { total_time: total } }, step) {
+    const now = Math.min(step, steps), spent = curves.spent[now], least = curves.least_total[now];
+    if (now === steps) return `All ${number(total)} time units are used.`;
+    const used = `${number(spent)} of ${number(total)} time units used`;
+    if (least === total) return `${used}; nobody waits or makes way any more.`;
+    return `${used}. If nobody had to wait or make way from here on, it would be ${number(least)} in the end.`;
   }
 }

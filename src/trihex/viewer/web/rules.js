@@ -1,12 +1,14 @@
 // Rules: the cells of the document and how robots move on them, as the panel lets them be chosen.
 
 import { h, title, wholeOf } from "./words.js";
-import { grid, inner, numberField, section, select } from "./controls.js";
+import { button, grid, inner, note, numberField, section, select } from "./controls.js";
+import { mayLeak } from "./leaks.js";
+import { OF_RULES } from "./sentences.js";
 
 export class Rules {
   constructor(app) {
     this.app = app;
-    const { tessellations, neighbourhoods, costs, corners, crossings } = app.settings;
+    const { tessellations, neighbourhoods, costs, corners, crossings, clocks, followings } = app.settings;
     const retile = (name) => (event) => this.#retile({ [name]: event.target.value });
     const rule = (name) => (event) => this.#rule(name, event.target.value);
     const whole = (name) => (event) => this.#rule(name, wholeOf(event.target));
@@ -18,12 +20,18 @@ export class Rules {
       costs: select("Costs", costs, retile("costs")),
       corners: select("Corners", corners, rule("corners")),
       crossing: select("Crossing", crossings, rule("crossing")),
+      clock: select("Clock", clocks, retile("clock")),
+      following: select("Following", followings, rule("following")),
       waiting_cost: numberField("Waiting cost w_t", "",
         { min: 0, placeholder: "one edge", onchange: whole("waiting_cost") }),
       destination_capacity: numberField("Arrivals per step and destination", "",
         { min: 1, placeholder: "any", onchange: whole("destination_capacity") }),
     };
-    this.element = section("Cells and rules", this.tessellation, inner("Rules", grid(Object.values(this.fields))));
+    for (const [name, field] of Object.entries(this.fields)) field.setAttribute("title", OF_RULES[name]);
+    this.squeeze = note("Robots may squeeze between walls that touch at a corner: ",
+      button("close the gaps", () => this.#rule("corners", "no-squeeze"), { class: "link" }));
+    this.element = section("Cells and rules", this.tessellation, this.squeeze,
+      inner("Rules", grid(Object.values(this.fields))));
   }
 
   #rule(name, value) { this.app.change({ header: { ...this.app.doc.header, [name]: value } }); }
@@ -35,12 +43,13 @@ export class Rules {
       return app.say("This area lies in the world in metres: open its file again with other cells.", true);
     }
     // A cost of waiting in the old unit would mean something else.
-    if (changes.costs) header.waiting_cost = null;
+    if (changes.costs || changes.clock) header.waiting_cost = null;
     app.change({ header });
   }
 
   show() {
-    const { header } = this.app.doc;
+    const { doc } = this.app, { header } = doc;
+    this.squeeze.hidden = !mayLeak(doc);
     const radios = this.tessellation.querySelectorAll("input");
     for (const radio of radios) radio.checked = radio.value === header.tessellation;
     for (const [name, field] of Object.entries(this.fields)) field.lastChild.value = header[name] ?? "";

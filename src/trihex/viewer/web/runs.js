@@ -3,12 +3,13 @@
 import { documentOf } from "./documents.js";
 import { Playback } from "./playback.js";
 
-export function runOf({ header, arrays }, doc = null) {
-  const place = doc ?? documentOf(header.document, arrays);
+// A plan on a document of the page, or on its own, with what stands beneath it.
+export function runOf({ header, arrays }, doc = null, ground = null) {
+  const place = doc ?? { ...documentOf(header.document, arrays), ground };
   return { ...header, playback: new Playback({ header, arrays }, place), doc: place };
 }
 
-const FIELD_RULES = ["tessellation", "neighbourhood", "costs", "corners"];
+const FIELD_RULES = ["tessellation", "neighbourhood", "costs", "corners", "clock"];
 
 // Whether the field of two documents is the same.
 export const sameField = (one, other) => one === other || (one.barriers === other.barriers &&

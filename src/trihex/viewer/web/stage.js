@@ -3,6 +3,7 @@
 import { h, number, plural, title, gapWords } from "./words.js";
 import { button } from "./controls.js";
 import { Legend } from "./legend.js";
+import { shapeOf } from "./documents.js";
 import { Pane } from "./pane.js";
 import { Still } from "./playback.js";
 
@@ -17,13 +18,14 @@ export class Stage {
     this.app = app;
     this.panes = [0, 1].map((i) => new Pane(makeCanvas(i), app.settings.colours));
     this.captions = this.panes.map(() => h("div", { class: "caption" }));
-    this.frames = this.panes.map((pane, i) => h("div", { class: "pane" }, pane.canvas, this.captions[i]));
+    this.frames = this.panes.map((pane, i) => h("div", { class: "pane" }, this.captions[i],
+      h("div", { class: "hold" }, pane.canvas)));
     this.frames[1].hidden = true;
     this.element = h("div", { class: "panes" }, this.frames);
     this.legend = new Legend(app);
     this.zoomButtons = h("div", { class: "zoom" }, button("+", () => this.zoom(1.4), { "aria-label": "Zoom in" }),
       button("−", () => this.zoom(1 / 1.4), { "aria-label": "Zoom out" }),
-      button("Fit", () => this.fit(), { "aria-label": "Show all" }));
+      button("Show all", () => this.fit(), { title: "0: the whole area" }));
     this.still = null; // the robots of a document that has no plan, { doc, distance, robots }
     this.isWaiting = false; // for the next frame of the screen
     this.lastTick = undefined; // when the last one was, if this one follows it
@@ -73,6 +75,7 @@ export class Stage {
   // ---- where
 
   resize() {
+    this.#arrange();
     const ratio = Math.min(window.devicePixelRatio || 1, 2);
     this.panes.forEach((pane, i) => {
       if (this.frames[i].hidden) return;
@@ -80,6 +83,15 @@ export class Stage {
       pane.resize(pixels(box.width), pixels(box.height));
     });
     this.invalidate();
+  }
+
+  // Two plans stand side by side, or one above the other where that is larger.
+  #arrange() {
+    const { doc, runs } = this.app, { width, height } = this.element.getBoundingClientRect();
+    if (!doc || !runs[1]) return;
+    const [across, down] = shapeOf(doc).extent(doc.width, doc.height);
+    const beside = Math.min(width / 2 / across, height / down), above = Math.min(width / across, height / 2 / down);
+    this.element.classList.toggle("stacked", above > beside);
   }
 
   zoom(factor) {
@@ -102,6 +114,7 @@ export class Stage {
       this.element.classList.toggle("split", isSplit);
       this.resize();
     }
+    if (isSplit) this.#arrange();
     this.#showFirst();
     if (isSplit) this.#showBeside();
     this.legend.show();
@@ -123,10 +136,15 @@ export class Stage {
   }
 
   // The world of a live run has changed, its cells or only its robots.
-  showWorld({ doc, known }, isOther) {
-    const [pane] = this.panes;
+  showWorld({ doc, known, distance }, isOther) {
+    const [pane] = this.panes, { field } = this.app;
     pane.take({ doc, known });
-    if (isOther) pane.changed("base");
+    if (!isOther) return;
+    pane.changed("base");
+    const most = field.isShown ? field.farthest(distance) : pane.options.most;
+    if (most === pane.options.most) return;
+    pane.take({ options: { ...pane.options, most } });
+    this.legend.show();
   }
 
   #showBeside() {
@@ -137,7 +155,8 @@ export class Stage {
   }
 
   #showPane(i, run, growing, most) {
-    const { doc: own, runs, settings, theme, field, followed: { robot }, host } = this.app, pane = this.panes[i];
+    const { doc: own, runs, settings, theme, field, followed: { robot }, results, canEdit } = this.app;
+    const pane = this.panes[i];
     const doc = run ? run.doc : own, { tessellation, neighbourhood } = doc.header;
     const isThere = run && robot >= 0 && robot < run.playback.count;
     pane.take({
@@ -145,11 +164,12 @@ export class Stage {
         steps: settings.steps?.[`${tessellation} ${neighbourhood}`] },
       follow: robot,
       track: isThere ? run.playback.robot(robot).rows.map(({ cell }) => cell) : null,
+      paths: run && results.hasPaths ? run.playback.paths() : null,
       crosses: [],
     });
     const things = `${plural(doc.robots.length, "robot")}, ${plural(doc.destinations.length, "destination")}`;
     const area = `${title(tessellation)} area of ${doc.width} by ${doc.height} cells, ${things}`;
-    const use = host && !i ? ", Enter uses the tool" : "";
+    const use = canEdit && !i ? ", Enter uses the tool" : "";
     pane.canvas.setAttribute("aria-label", `${area}. Arrow keys move the cursor${use}.`);
     this.captions[i].textContent = run && runs[1] ? `${run.summary.planner} · ${tessellation} · ` +
       `total time ${number(run.summary.total_time)} · ${gapWords(run.summary)}` : "";

@@ -1,7 +1,7 @@
 // Start: the page of a server, a file, or a notebook.
 
 import { decode } from "./bundles.js";
-import { HttpHost, ModelHost } from "./hosts.js";
+import { HttpHost, ModelHost, SiteHost } from "./hosts.js";
 import { App } from "./app.js";
 
 async function unpacked(text) {
@@ -13,7 +13,7 @@ async function unpacked(text) {
 async function start(root) {
   const settings = JSON.parse(document.getElementById("trihex-settings").textContent);
   const content = document.getElementById("trihex-content").textContent.trim();
-  const host = settings.host === "server" ? new HttpHost() : null;
+  const host = { server: () => new HttpHost(), site: () => new SiteHost() }[settings.host]?.() ?? null;
   root.app = new App(root, settings, host, content ? await unpacked(content) : null);
 }
 

@@ -6,6 +6,10 @@ export function stored(key) {
   try { return localStorage.getItem(key); } catch { return null; }
 }
 
+export function keep(key, text) {
+  try { localStorage.setItem(key, text); } catch { /* a page without storage */ }
+}
+
 export function download(name, content) {
   const url = URL.createObjectURL(new Blob([content]));
   const link = h("a", { href: url, download: name });

@@ -1,7 +1,7 @@
 // Theme: light or dark.
 
 import { button } from "./controls.js";
-import { stored } from "./storage.js";
+import { keep, stored } from "./storage.js";
 
 const DARK_QUERY = "(prefers-color-scheme: dark)";
 
@@ -17,7 +17,7 @@ export class Theme {
 
   next() {
     this.name = this.isDark ? "light" : "dark";
-    try { localStorage.setItem("trihex-theme", this.name); } catch { /* a page without storage */ }
+    keep("trihex-theme", this.name);
     this.apply();
   }
 

@@ -1,0 +1,143 @@
+"""Claims: which cells, lattice vertices and destinations robots own, and until when, where moves last.
+
+Time runs in ticks; a tick is two *half ticks*, because a robot may own the cell that it leaves for half of its move. A
+robot that stands in a cell or enters it is its *owner*; whoever leaves it owns it, too, until a certain half tick.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import types
+
+from trihex.kernels.signatures import HELPER, IN_I32, OUT_I32, OUT_I64, declared
+from trihex.planners.kernels.slots import SITES, SLOTS
+from trihex.planners.kernels.ways import WAYS, neighbour, vertex_of
+
+# Flag of an owner: somebody waits until this cell is left.
+AWAITED = 1 << 30
+# A tick at which nothing ever happens.
+NEVER = np.int64(1 << 30)
+# Ticks of a window: a vertex has a bit for each of them and, above, for as long as moves last that begin in it.
+WINDOW = 30
+_BITS = np.int64(40)
+_U = np.uint64
+
+
+class Clock(NamedTuple):
+    """How long moves last, and who owns a cell meanwhile."""
+
+    duration: IN_I32  # ticks of a move in each direction
+    follows: types.int64  # 1 if a robot owns but the half of its move; 0 if nobody may follow before it is over
+    shortest: types.int64  # ticks of the shortest move
+    headway: types.int64  # how many of the shortest moves there are between two robots that go through one cell
+
+
+class Claims(NamedTuple):
+    """What is owned."""
+
+    owner: OUT_I32  # of a site: who stands there or enters, 0 for nobody; with the flag `AWAITED`
+    left_until: OUT_I32  # of a site: the half tick until which somebody owns it who leaves it
+    passed: OUT_I64  # of a vertex: the window in which somebody passed it last, above the bits of the ticks
+    entered_until: OUT_I32  # of each destination as often as its capacity: until which half tick a robot enters it
+
+
+class Stage(NamedTuple):
+    """Where robots act."""
+
+    clock: declared(Clock)
+    ways: WAYS
+    sites: SITES
+    slots: SLOTS
+    claims: declared(Claims)
+
+
+CLOCK, CLAIMS, STAGE = declared(Clock), declared(Claims), declared(Stage)
+
+
+@HELPER
+def owner_of(site, claims):
+    """Return who stands at a site or enters it, 0: nobody."""
+    return np.int64(claims.owner[_U(site)] & (AWAITED - 1))
+
+
+@HELPER
+def _tick_after(half_tick, tick):
+    """Return the first tick at or after a half tick, but not before `tick`."""
+    return max(tick, (half_tick + 1) >> 1)
+
+
+@HELPER
+def _ticks_passed(vertex, window, claims):
+    """Return, as bits from the first tick of a window, when a vertex is owned."""
+    word = claims.passed[_U(vertex)]
+    age, ticks = window - (word >> _BITS), word & ((1 << _BITS) - 1)
+    return ticks if age == 0 else (ticks >> WINDOW) * (age == 1)
+
+
+@HELPER
+def tick_of_leave(to, k, tick, stage):
+    """Return from which tick on direction `k` may lead into a cell that somebody leaves."""
+    owned = np.int64(stage.claims.left_until[_U(to)])
+    return _tick_after(owned - stage.clock.follows * stage.clock.duration[_U(k)], tick)
+
+
+@HELPER
+def _place_at(number, stage):
+    """Return which place of a destination's, by its number, is free first."""
+    limit = stage.ways.entry_limit
+    first = number * limit
+    for i in range(number * limit + 1, (number + 1) * limit):
+        if stage.claims.entered_until[_U(i)] < stage.claims.entered_until[_U(first)]:
+            first = i
+    return first
+
+
+@HELPER
+def tick_of_opening(site, k, to, slot, tick, stage):
+    """Return the tick at which a robot at `site` can begin to move in direction `k`, `NEVER` if nobody knows.
+
+    `slot` is that of the cell `to`, negative for destinations. An opposite move is never under way: whoever makes it
+    would have become the owner of `site`.
+    """
+    clock, claims = stage.clock, stage.claims
+    duration = np.int64(clock.duration[_U(k)])
+    ready = tick
+    if slot > 0:
+        if owner_of(to, claims):
+            return NEVER
+        ready = tick_of_leave(to, k, tick, stage)
+    elif stage.ways.entry_limit:
+        entered_until = np.int64(claims.entered_until[_U(_place_at(-1 - slot, stage))])
+        ready = _tick_after(entered_until - clock.follows * duration, tick)
+    if k >= stage.ways.first_vertex_move:
+        window = tick // WINDOW
+        ticks = _ticks_passed(vertex_of(site, k, stage.ways), window, claims) >> (tick - window * WINDOW)
+        if ticks & ((1 << duration) - 1):
+            free = tick
+            while ticks:
+                ticks >>= 1
+                free += 1
+            ready = max(ready, free)
+    return ready
+
+
+@HELPER
+def claim(robot, site, k, slot, tick, stage):
+    """Let a robot begin to move: it leaves `site`, passes a vertex and enters a cell, or a destination (slot < 0).
+
+    Return whether somebody waits until `site` is left.
+    """
+    clock, claims = stage.clock, stage.claims
+    duration = np.int64(clock.duration[_U(k)])
+    is_awaited = claims.owner[_U(site)] & AWAITED != 0
+    claims.owner[_U(site)] = 0
+    claims.left_until[_U(site)] = 2 * tick + duration * (2 - clock.follows)
+    if slot > 0:
+        claims.owner[_U(neighbour(site, k, stage.ways))] = robot
+    elif stage.ways.entry_limit:
+        claims.entered_until[_U(_place_at(-1 - slot, stage))] = 2 * (tick + duration)
+    if k >= stage.ways.first_vertex_move:
+        vertex, window = vertex_of(site, k, stage.ways), tick // WINDOW
+        ticks = _ticks_passed(vertex, window, claims) | ((1 << duration) - 1) << (tick - window * WINDOW)
+        claims.passed[_U(vertex)] = window << _BITS | ticks
+    return is_awaited
