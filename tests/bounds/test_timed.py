@@ -48,6 +48,7 @@ def test_an_optimum_is_a_plan_that_takes_as_long(time):
         program, _, least, deeds = solve_timed(scenario)
         plan = plan_of_deeds(scenario, program, deeds)
         assert plan.total_time == least
+        assert th.audit_plan(plan).is_clean, seed
         assert np.array_equal(plan.arrived, th.make_n_scheme(scenario).distance_of_cell(scenario.robots) < 2**31 - 1)
 
 
