@@ -14,7 +14,15 @@ _REPAIR = (*_DIRECTIONS, "fields.repair", "fields.changing")
 _GREEDY = (*_DIRECTIONS, "planners.greedy", "planners.cells", "planners.rows", "plans.replay")
 _FCOST = (*_GREEDY, *_REPAIR, "planners.fcost", "planners.slots", "planners.lanes", "planners.laying")
 _ASTAR = (*_FIELD, "areas.moves", "planners.astar", "planners.reservations", "plans.replay")
-_OPTIMUM = ("fields.steps", "optimum.paths", "optimum.single", "optimum.levels", "optimum.earliest", "optimum.laid")
+_OPTIMUM = (
+    "fields.steps",
+    "optimum.paths",
+    "optimum.single",
+    "optimum.raising",
+    "optimum.serving",
+    "optimum.earliest",
+    "optimum.laid",
+)
 _BOUND = ("areas.moves", "fields.steps", "bounds.cuts", "bounds.gates", "bounds.meetings", "bounds.serving")
 _EXECUTION = (*_REPAIR, "running.stepping", "running.lines")
 
