@@ -179,7 +179,7 @@ export class Stage {
     const { runs } = this.app, isSame = runs[0]?.summary.tessellation === runs[1]?.summary.tessellation;
     const words = summary ? [summary.planner || "plan", isSame ? "" : summary.tessellation,
       `total time ${number(summary.total_time)}`, gapWords(summary)].filter(Boolean).join(" · ") : "";
-    this.captions[i].textContent = words;
+    this.captions[i].textContent = words.replace(/(\d) (?=\d)/g, "$1\u00a0"); // a number is not parted
     this.captions[i].setAttribute("title", words);
   }
 
