@@ -3,7 +3,7 @@
 import { h, number, percent, title } from "./words.js";
 import { check, note, section } from "./controls.js";
 import { Chart } from "./chart.js";
-import { OF_LIVE, OF_PLAN, UNITS } from "./sentences.js";
+import { OF_BOUNDS, OF_LIVE, OF_PLAN, UNITS } from "./sentences.js";
 
 const SO_FAR = "The time that robots have used until this step, and the least that the total can still become: that " +
   "time, and the shortest way of each robot from where it is.";
@@ -23,10 +23,12 @@ function unitsOf({ summary: { waiting_cost: wait }, edge_cost: edge }) {
   return `${UNITS} ${number(edge)}, a wait ${number(wait)}. Point at a number to read what it means.`;
 }
 
+const BOUND = "Lower bound";
+
 // What a row is called, and what it says of the summary of a plan.
 const ROWS = [
   ["Total time", (summary) => number(summary.total_time)],
-  ["Lower bound", (summary) => `${number(summary.lower_bound)} (${summary.lower_bound_name})`],
+  [BOUND, (summary) => `${number(summary.lower_bound)} (${summary.lower_bound_name})`],
   ["Gap to the optimum", gapOf],
   ["Steps", ({ steps }, { seconds_per_step: each }) =>
     `${number(steps)}${each ? ` (${secondsIn(steps * each)} at 1 m/s)` : ""}`],
@@ -90,12 +92,14 @@ export class Results {
       `${runs.length > 1 && tessellation !== this.app.doc.header.tessellation ? ` (${tessellation})` : ""}`;
     const heads = runs.map((run, i) => h("th", { scope: "col", class: `run${i}` }, name(run)));
     const lines = ROWS.map(([label, of]) => h("tr", { title: OF_PLAN[label] }, h("th", { scope: "row" }, label),
-      runs.map((run) => h("td", {}, of(run.summary, run)))));
+      runs.map((run) => h("td", { title: label === BOUND && OF_BOUNDS[run.summary.lower_bound_name] },
+        of(run.summary, run)))));
     const conflicts = runs.flatMap((run) => run.conflicts).slice(0, 5).map(({ step, text }) => h("li", {},
       h("button", { type: "button", class: "link", onclick: () => this.app.clock.seek(step - 1) }, text)));
     this.table.replaceChildren(...[
       h("table", {}, h("thead", {}, h("tr", {}, h("td"), heads)), h("tbody", {}, lines)),
-      note(unitsOf(runs[0])), this.#verdict(runs), conflicts.length ? h("ul", { class: "conflicts" }, conflicts) : null,
+      note(unitsOf(runs[0])), this.verdict ? h("p", { class: "verdict" }, this.verdict) : null,
+      conflicts.length ? h("ul", { class: "conflicts" }, conflicts) : null,
     ].filter(Boolean));
     this.chart.draw(runs.map(({ playback }) => playback.curves));
   }
@@ -109,15 +113,15 @@ export class Results {
   }
 
   // One sentence on what two plans differ in.
-  #verdict(runs) {
-    if (runs.length < 2) return null;
+  get verdict() {
+    const runs = this.#runs;
+    if (runs.length < 2) return "";
     const [one, two] = runs.map((run) => run.summary), isSame = one.tessellation === two.tessellation;
     const share = two.total_time ? one.total_time / two.total_time - 1 : 0;
     const nameIn = ({ planner, tessellation }) => `${planner}${isSame ? "" : ` on ${tessellation} cells`}`;
-    const first = title(nameIn(one)), words = Math.abs(share) < 5e-5
-      ? `${first} and ${nameIn(two)} take the same total time.`
-      : `${first} takes ${percent(Math.abs(share))} ${share > 0 ? "more" : "less"} time than ${nameIn(two)}.`;
-    return h("p", { class: "verdict" }, words);
+    const first = title(nameIn(one));
+    if (Math.abs(share) < 5e-5) return `${first} and ${nameIn(two)} take the same total time.`;
+    return `${first} takes ${percent(Math.abs(share))} ${share > 0 ? "more" : "less"} time than ${nameIn(two)}.`;
   }
 
   #showLive(live) {
