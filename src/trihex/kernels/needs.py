@@ -30,7 +30,7 @@ KERNELS_OF: dict[str, tuple[str, ...]] = {
     "timely greedy": _TIMELY,
     "timely fcost": (*_TIMELY, *_REPAIR, "planners.lanes", "planners.laying"),
     "optimal": _OPTIMUM,  # and, where robots crowd, one of two more: `trihex.planners.uses_of`
-    "optimal_crowd": (*_OPTIMUM, "optimum.raising", "optimum.serving"),
+    "optimal_crowd": (*_OPTIMUM, "optimum.prices", "optimum.raising", "optimum.serving"),
     "optimal_earliest": (*_OPTIMUM, *_FCOST, "optimum.earliest", "optimum.laid"),
     "audit": ("judging.audit", "plans.replay"),
     "timely audit": ("judging.timed", "plans.replay"),
