@@ -26,6 +26,8 @@ def test_the_summary_says_it_all():
         "costs": "paper",
         "corners": "allow",
         "crossing": "forbid",
+        "clock": "steps",
+        "following": "allow",
         "destination_capacity": None,
         "cells": 7,
         "free_cells": 6,

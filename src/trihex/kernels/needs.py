@@ -45,6 +45,8 @@ KERNELS_OF: dict[str, tuple[str, ...]] = {
     "area": ("areas.caves", "areas.mazes", "areas.coverage", "areas.regions"),
     "generations": ("fields.generations",),
     "page": ("plans.playback",),
+    "waypoints": ("plans.rows",),
+    "ticks": ("plans.ticks",),
     "reach": ("judging.reach",),
 }
 

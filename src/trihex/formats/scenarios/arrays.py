@@ -11,10 +11,10 @@ from trihex.areas import Area, Frame, Scenario, Tessellation, Zone
 from trihex.errors import FormatError
 from trihex.formats.archive import Entries
 
-# What came later, and what holds where a file does not have it: it has none that is usual.
+# Entries that came later, and what holds where a file does not have them: it has none that is usual.
 _LATER_RULES = {"clock": "steps", "following": "allow"}
-_LATER_ZONES = {"zone_names": np.empty(0, dtype=np.uint8), "zone_cells": np.empty((0, 2), dtype=np.int64)}
-LATER_ENTRIES = {**_LATER_RULES, **_LATER_ZONES}
+_NO_ZONES = {"zone_names": np.empty(0, dtype=np.uint8), "zone_cells": np.empty((0, 2), dtype=np.int64)}
+LATER_ENTRIES: dict[str, Any] = {**_LATER_RULES, **_NO_ZONES}
 SCENARIO_ENTRIES: Entries = {
     "tessellation": ("U", 0),
     "neighbourhood": ("U", 0),
@@ -45,7 +45,7 @@ def scenario_arrays(scenario: Scenario) -> dict[str, Any]:
         "area": area.name,
         "barriers": area.barriers,
         "frame": np.array([] if (at := area.frame) is None else [at.cell_size, *at.origin, at.yaw, at.robot_radius]),
-        **(_zone_arrays(area) if area.zones else {}),
+        **(_zone_arrays(area.zones) if area.zones else {}),
         "destinations": scenario.destinations,
         "robots": scenario.robots,
         "waiting_cost": scenario.waiting_cost,
@@ -75,10 +75,10 @@ def scenario_from(arrays: dict[str, Any], path: object, kind: type[Scenario] = S
     )
 
 
-def _zone_arrays(area: Area) -> dict[str, Any]:
-    pairs = [(number, cell) for number, zone in enumerate(area.zones) for cell in zone.cells.tolist()]
+def _zone_arrays(zones: tuple[Zone, ...]) -> dict[str, Any]:
+    pairs = [(number, cell) for number, zone in enumerate(zones) for cell in zone.cells.tolist()]
     return {
-        "zone_names": np.frombuffer("\n".join(zone.name for zone in area.zones).encode(), dtype=np.uint8),
+        "zone_names": np.frombuffer("\n".join(zone.name for zone in zones).encode(), dtype=np.uint8),
         "zone_cells": np.array(pairs, dtype=np.int64).reshape(-1, 2),
     }
 
