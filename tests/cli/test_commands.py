@@ -25,7 +25,8 @@ SUMMARY_KEYS = [
     *("area", "tessellation", "neighbourhood", "costs", "corners", "crossing", "destination_capacity", "cells"),
     *("free_cells", "robots", "arrived", "unreachable", "seed", "planner", "waiting_cost", "steps", "total_time"),
     *("total_distance", "total_waiting", "longest_time", "lower_bound", "lower_bound_name", "gap", "optimal"),
-    *("conflicts", "corner_moves", "squeezing_moves", "seconds"),
+    *("conflicts", "corner_moves", "squeezing_moves", "turning", "step_seconds"),
+    *("last_arrival_seconds", "mean_arrival_seconds", "seconds"),
 ]
 
 

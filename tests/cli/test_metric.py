@@ -89,11 +89,27 @@ def test_show_tells_and_draws_an_area(house):
     assert lines[-1] == "#" * 23
 
 
+TURNS = ("--turn-time", "0.25", "--frame-id", "hall")
+
+
 def test_a_scenario_tells_its_outputs_and_writes_them_beside_itself(house, tmp_path, monkeypatch):
-    first = ["--robots", 5, "--speed", "0.5", "--write-scenario", "s.toml", "--out", "p.npz", "--waypoints", "w.csv"]
+    first = [
+        "--robots",
+        5,
+        "--speed",
+        "0.5",
+        *TURNS,
+        "--write-scenario",
+        "s.toml",
+        "--out",
+        "p.npz",
+        "--waypoints",
+        "w.csv",
+    ]
     assert run("plan", "house.yaml", *SIZE, *PLACES, *first, "--picture", "p.svg").exit_code == 0
     text = (tmp_path / "s.toml").read_text()
-    assert '[outputs]\nplan = "p.npz"\npicture = "p.svg"\nwaypoints = "w.csv"\nspeed = 0.5\n' in text
+    outputs = 'plan = "p.npz"\npicture = "p.svg"\nwaypoints = "w.csv"\nspeed = 0.5\nturn_time = 0.25\n'
+    assert f'[outputs]\n{outputs}frame_id = "hall"\n' in text
     (tmp_path / "elsewhere").mkdir()
     (tmp_path / "elsewhere" / "s.toml").write_text(text.replace("p.svg", "p.png"))
     before = {name: (tmp_path / name).read_bytes() for name in ("p.npz", "w.csv")}

@@ -50,6 +50,9 @@ from .scenario import (
     Scenario as Scenario,
     random_robots as random_robots,
 )
+from .seconds import (
+    seconds_per_step as seconds_per_step,
+)
 from .tessellation import (
     COSTS as COSTS,
     NEIGHBOURHOODS as NEIGHBOURHOODS,

@@ -205,6 +205,17 @@ class Tessellation(Record):
         return read_only(bends)
 
     @cached_property
+    def heading_of_direction(self) -> NDArray[np.float64]:
+        """Degrees from north, clockwise, from 0 to below 360, of each move, shape (2 orientations, directions)."""
+        headings = np.zeros(self.step_of_direction.shape[:2])
+        for side in range(2):
+            here = self.centre_of_cell(side, 0)
+            steps = self.step_of_direction[side]
+            there = self.centre_of_cell(side + steps[:, 0], steps[:, 1])
+            headings[side] = np.degrees(np.arctan2(there[0] - here[0], here[1] - there[1])) % 360
+        return read_only(np.round(headings, 9) % 360)
+
+    @cached_property
     def cost_of_direction(self) -> NDArray[np.int32]:
         """Cost of a move in each direction, shape (directions,); the same for both orientations."""
         if self.costs == "paper":

@@ -14,14 +14,16 @@ from trihex.cli.options import (
     area_options,
     complete,
     gathered,
+    of_waypoints,
     read_described,
     robot_options,
     rule_options,
+    waypoint_options,
     wrong_use,
 )
 from trihex.cli.outputs import check_outputs, tell_written
 from trihex.cli.progress import bar
-from trihex.cli.types import Metres, Name
+from trihex.cli.types import Name
 
 
 class Outputs(NamedTuple):
@@ -32,6 +34,8 @@ class Outputs(NamedTuple):
     picture: Path | None
     waypoints: Path | None
     speed: float | None
+    turn_time: float | None
+    frame_id: str | None
 
 
 @click.command("plan")
@@ -45,7 +49,7 @@ class Outputs(NamedTuple):
 @click.option("--summary", type=PATH, metavar="FILE", help="The report as JSON; - writes it to the standard output.")
 @click.option("--picture", type=PATH, metavar="FILE", help="The plan drawn, as .png, .svg or .pdf.")
 @click.option("--waypoints", type=PATH, metavar="FILE", help="Where each robot is when, in metres and seconds.")
-@click.option("--speed", type=Metres(), help="Of the robots, in metres a second. [default: 1.0]")
+@waypoint_options
 @click.option("--write-scenario", type=PATH, metavar="FILE", help="All that was planned, as a scenario .toml.")
 @gathered("named", Outputs)
 def command(
@@ -79,7 +83,8 @@ def command(
     scenario = complete(draft, *_uses(planner, outputs))
     if "waypoints" in outputs and scenario.area.frame is None:
         raise wrong_use("--waypoints are in metres: add --cell-size")
-    report = _reported(scenario, planner, planner_options, seconds)
+    pace: dict[str, float] = {name: outputs[name] for name in ("speed", "turn_time") if name in outputs}
+    report = _reported(scenario, planner, planner_options, seconds, pace)
     _write(report, draft, outputs)
     if write_scenario:
         from trihex.formats import write_scenario as write_scenario_file
@@ -104,7 +109,7 @@ def _check_outputs(outputs: dict[str, Any], write_scenario: Path | None) -> None
     """Raise unless all that is to be written can be."""
     from trihex.formats import PLAN_SUFFIXES, WAYPOINT_SUFFIXES
 
-    unnamed = [path for path in outputs.values() if write_scenario and not str(path).isprintable()]
+    unnamed = [value for value in outputs.values() if write_scenario and not str(value).isprintable()]
     if unnamed:
         raise wrong_use(f"--write-scenario can name no output but in printable UTF-8, not {str(unnamed[0])!a:.200}")
     if outputs.get("picture"):  # what draws is imported only for who draws
@@ -132,10 +137,12 @@ def _write(report: Any, draft: Any, outputs: dict[str, Any]) -> None:
 
         picture_of_plan(report.plan, ground=draft.ground, crop=draft.ground is not None).save(outputs["picture"])
     if "waypoints" in outputs:
-        write_waypoints(report.plan, outputs["waypoints"], speed=outputs.get("speed", 1.0))
+        write_waypoints(report.plan, outputs["waypoints"], **of_waypoints(dict(outputs)))
 
 
-def _reported(scenario: Any, planner: str, planner_options: dict[str, Any], seconds: dict[str, float]) -> Any:
+def _reported(
+    scenario: Any, planner: str, planner_options: dict[str, Any], seconds: dict[str, float], pace: dict[str, float]
+) -> Any:
     """Plan, judge and report; add to `seconds` how long each part took."""
     from trihex.bounds import make_lower_bound
     from trihex.fields import make_n_scheme
@@ -157,7 +164,7 @@ def _reported(scenario: Any, planner: str, planner_options: dict[str, Any], seco
     if not plan.optimal:
         with bar("bounding", "rounds") as progress:
             bound = make_lower_bound(n_scheme, progress=progress)
-    return make_report(plan, n_scheme=n_scheme, audit=audit, lower_bound=bound, seconds=seconds)
+    return make_report(plan, n_scheme=n_scheme, audit=audit, lower_bound=bound, seconds=seconds, **pace)
 
 
 def _parsed(planner_option: tuple[str, ...]) -> dict[str, Any]:

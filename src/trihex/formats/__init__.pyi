@@ -28,6 +28,7 @@ from .runs.events import (
     write_events as write_events,
 )
 from .runs.npz import (
+    is_run as is_run,
     read_run as read_run,
     write_run as write_run,
 )

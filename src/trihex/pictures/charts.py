@@ -11,10 +11,11 @@ from typing import Any
 
 import numpy as np
 
+from trihex.areas import seconds_per_step
 from trihex.errors import FormatError, check_many, check_type
 from trihex.pictures.axes import fit_legend, keep_room, matplotlib, new_axes, rgb, series
 from trihex.pictures.palette import INK
-from trihex.plans import Plan
+from trihex.plans import Motion
 
 # What is asked of a run beside its robots: rows that differ in one of these never become one bar.
 _RULES = ("neighbourhood", "costs", "waiting_cost", "crossing", "corners", "destination_capacity")
@@ -28,20 +29,30 @@ Row = Mapping[str, Any]
 
 
 def draw_arrivals(
-    plans: Plan | Sequence[Plan], ax: Any = None, *, title: str | None = None, legend: bool = True
+    plans: Motion | Sequence[Motion],
+    ax: Any = None,
+    *,
+    title: str | None = None,
+    legend: bool = True,
+    speed: float = 1.0,
 ) -> Any:
-    """Draw how many robots have arrived after each step, a line for each plan; return the Axes."""
-    plans = [plans] if isinstance(plans, Plan) else plans
-    check_many("plans", plans, Plan, "a plan or a list of plans")
+    """Draw how many robots have arrived after each step, a line for each plan or run; return the Axes.
+
+    If all areas are in metres the time is in seconds, as robots take that are as fast as `speed` metres in a second.
+    """
+    plans = [plans] if isinstance(plans, Motion) else plans
+    check_many("plans", plans, Motion, "a plan or a list of plans")
     for number, plan in enumerate(plans):
-        check_type(f"plans[{number}]", plan, Plan)
-    ax = new_axes(ax)
+        check_type(f"plans[{number}]", plan, Motion)
+    ax, in_seconds = new_axes(ax), all(plan.scenario.area.frame is not None for plan in plans)
     for number, plan in enumerate(plans):
+        unit = seconds_per_step(plan.scenario.area, speed) if in_seconds else 1
         steps = np.sort(plan.arrival_step_of_robot[plan.arrived])
         arrived = np.append(np.arange(steps.size + 1), steps.size)
         label = f"{plan.planner or 'plan'}, {plan.scenario.area.tessellation.name}"
-        ax.step([0, *steps, plan.steps], arrived, where="post", color=series(number), label=label)
-    ax.set_xlabel("step")
+        times = np.array([0, *steps, plan.steps]) * unit
+        ax.step(times, arrived, where="post", color=series(number), label=label)
+    ax.set_xlabel("seconds" if in_seconds else "step")
     ax.set_ylabel("robots arrived")
     ax.set_ylim(bottom=0)
     if title:

@@ -2,6 +2,11 @@ from .arrivals import (
     Arrivals as Arrivals,
     make_arrivals as make_arrivals,
 )
+from .motion import (
+    Motion as Motion,
+    rows_of_motion as rows_of_motion,
+    seconds_of_arrivals as seconds_of_arrivals,
+)
 from .plan import (
     Plan as Plan,
     actions_of as actions_of,
@@ -9,6 +14,9 @@ from .plan import (
 )
 from .playback import (
     make_playback as make_playback,
+)
+from .turning import (
+    turning_of_robot as turning_of_robot,
 )
 from .walk import (
     cells_of_rows as cells_of_rows,

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from trihex.plans.motion import Motion, rows_of_motion
 from trihex.plans.plan import Plan, actions_of
 
 # Actions that kernels look at in one call, some 10 ms: Ctrl-C works in between.
@@ -22,16 +23,26 @@ def follow(plan: Plan, step: int, next_step: int, site: NDArray[np.int32]) -> No
         kernels.follow(actions, first, min(site.size, first + some), step, next_step, site)
 
 
-def visits_of(plan: Plan) -> NDArray[np.int64]:
+def visits_of(plan: Motion) -> NDArray[np.int64]:
     """Return how many robots start in or enter each cell, shape (height, width)."""
     from trihex.plans.kernels import replay as kernels
 
+    if not isinstance(plan, Plan):
+        return _visits_of_rows(plan)
     layout = plan.scenario.area.layout
     visits = np.zeros(layout.size, dtype=np.int64)
     start, actions = layout.cell_to_site(plan.scenario.robots), actions_of(plan)
-    for robot, last in _blocks_of(plan):
+    for robot, last in blocks_of(plan):
         kernels.count_visits(start, actions, robot, last, visits)
     return layout.cells_of(visits)  # type: ignore[return-value]
+
+
+def _visits_of_rows(motion: Motion) -> NDArray[np.int64]:
+    first_row, _, cell = rows_of_motion(motion)
+    enters = np.append(True, cell[1:] != cell[:-1])[: cell.size]
+    enters[first_row[:-1]] = True
+    area = motion.scenario.area
+    return np.bincount(cell[enters], minlength=area.cell_count).reshape(area.height, area.width)
 
 
 def count_marked_moves(plan: Plan, marked: NDArray[np.uint16]) -> int:
@@ -39,10 +50,10 @@ def count_marked_moves(plan: Plan, marked: NDArray[np.uint16]) -> int:
     from trihex.plans.kernels import replay as kernels
 
     start, actions = plan.scenario.area.layout.cell_to_site(plan.scenario.robots), actions_of(plan)
-    return sum(int(kernels.count_marked(start, actions, robot, last, marked)) for robot, last in _blocks_of(plan))
+    return sum(int(kernels.count_marked(start, actions, robot, last, marked)) for robot, last in blocks_of(plan))
 
 
-def _blocks_of(plan: Plan) -> Iterator[tuple[int, int]]:
+def blocks_of(plan: Plan) -> Iterator[tuple[int, int]]:
     """Yield robots from, and up to, that have about so many actions together as one call of a kernel takes."""
     first, robot, robots = plan.first_action, 0, plan.scenario.robot_count
     while robot < robots:

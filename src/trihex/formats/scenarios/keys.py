@@ -78,6 +78,10 @@ def _beside(value: str) -> str:
 _Output = Annotated[str, AfterValidator(_beside)]
 
 
+# Those of [outputs] that are paths.
+OUTPUT_PATHS = ("plan", "summary", "picture", "waypoints")
+
+
 class OutputsTable(Table):
     """[outputs]: what `trihex plan` writes, unless its options say otherwise."""
 
@@ -86,6 +90,8 @@ class OutputsTable(Table):
     picture: _Output | None = None
     waypoints: _Output | None = None
     speed: Annotated[Number, Field(gt=0)] | None = None
+    turn_time: Annotated[Number, Field(ge=0)] | None = None
+    frame_id: str | None = None
 
 
 class ScenarioTable(Table):

@@ -45,6 +45,7 @@ def write_jupedsim(tracks: Tracks, path: str | os.PathLike[str]) -> None:
     frames = int(tracks.step.max()) + 1
     ground = int.from_bytes(sha256(wkt.encode()).digest()[:8], signed=True)
     order = np.lexsort((tracks.robot, tracks.step))
+    order = order[tracks.ends_step[order]]
     columns = (tracks.step, tracks.robot, tracks.x, tracks.y, np.cos(tracks.yaw), np.sin(tracks.yaw))
     rows = zip(*(column[order].tolist() for column in columns), strict=True)
     with new_file(path) as part:

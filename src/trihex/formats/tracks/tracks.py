@@ -1,16 +1,15 @@
-"""Tracks: where each robot of a plan is in the world, in metres and seconds; what all writers of motion write."""
+"""Tracks: where each robot of a plan or a run is, in metres and seconds; what all writers of waypoints write."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from numbers import Real
 
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Area
+from trihex.areas import Area, seconds_per_step
 from trihex.errors import FormatError
-from trihex.plans import Plan, cells_of_rows
+from trihex.plans import Motion, Plan, rows_of_motion
 from trihex.record import Record, read_only
 
 
@@ -18,8 +17,10 @@ from trihex.record import Record, read_only
 class Tracks(Record):
     """The places of all robots, robot by robot and step by step; between two of them a robot moves in a straight line.
 
-    Robot r has the rows ``first_row[r]`` to ``first_row[r + 1] - 1``, one for each step from 0. It leaves the world
-    with its last row, in which it arrives. One that never arrives has rows to the last step of the plan.
+    Robot r has the rows ``first_row[r]`` to ``first_row[r + 1] - 1``, one for each step from 0, or from the step after
+    which it joined a run. It leaves the world with its last row, in which it arrives. One that never arrives, and does
+    not leave, has rows to the last step. Where robots take time to turn, there are two rows a step: when it ends, and
+    when all robots have turned and the next move begins.
 
     Attributes
     ----------
@@ -27,25 +28,31 @@ class Tracks(Record):
     seconds_per_step : float
     first_row : int64 array, shape (robots + 1,)
     step : int64 array, shape (rows,)
+        The step that has ended.
+    seconds : float64 array, shape (rows,)
     x, y : float64 arrays, shape (rows,)
         In metres, in the world.
     yaw : float64 array, shape (rows,)
         Where the robot will go next, in radians, anticlockwise from the east; while it waits, where it will go then; in
-        the end, where it came from.
+        the end, and before it turns, where it came from.
     arrived : bool array, shape (robots,)
+    frame_id : str
+        What ROS calls the frame of x and y.
     """
 
     area: Area
     seconds_per_step: float
     first_row: NDArray[np.int64]
     step: NDArray[np.int64]
+    seconds: NDArray[np.float64]
     x: NDArray[np.float64]
     y: NDArray[np.float64]
     yaw: NDArray[np.float64]
     arrived: NDArray[np.bool_]
+    frame_id: str = "map"
 
     def __post_init__(self) -> None:
-        for name in ("first_row", "step", "x", "y", "yaw", "arrived"):
+        for name in ("first_row", "step", "seconds", "x", "y", "yaw", "arrived"):
             self._set(name, read_only(getattr(self, name)))
 
     @property
@@ -54,31 +61,32 @@ class Tracks(Record):
         return int(self.first_row.size - 1)
 
     @property
-    def seconds(self) -> NDArray[np.float64]:
-        """Time of each row."""
-        return np.asarray(self.step * self.seconds_per_step)
-
-    @property
     def robot(self) -> NDArray[np.int64]:
         """Robot of each row."""
         return np.repeat(np.arange(self.robot_count), np.diff(self.first_row))
+
+    @property
+    def ends_step(self) -> NDArray[np.bool_]:
+        """Whether a step ends with each row; the others tell where robots are once they have turned."""
+        return np.append(True, (np.diff(self.step) != 0) | (np.diff(self.robot) != 0))[: self.step.size]
 
     def rows_of(self, robot: int) -> slice:
         """Return the rows of a robot."""
         return slice(int(self.first_row[robot]), int(self.first_row[robot + 1]))
 
 
-def make_tracks(plan: Plan, speed: float = 1.0) -> Tracks:
-    """Return the tracks of a plan whose area has a frame.
+def make_tracks(motion: Motion, speed: float = 1.0, *, turn_time: float = 0.0, frame_id: str = "map") -> Tracks:
+    """Return the tracks of a plan or a run whose area has a frame.
 
     All moves take as long: a step lasts as the longest move of the tessellation does at `speed`, so that no robot is
-    ever faster.
+    ever faster, and `turn_time` before it.
 
     Parameters
     ----------
-    plan : Plan
-    speed : float
-        Metres in a second.
+    motion : Plan or Run
+    speed, turn_time : float
+        See `trihex.areas.seconds_per_step`.
+    frame_id : str
 
     Raises
     ------
@@ -87,29 +95,34 @@ def make_tracks(plan: Plan, speed: float = 1.0) -> Tracks:
     FormatError
         If the speed is not above 0, or a robot jumps.
     """
-    if not isinstance(speed, Real) or not 0 < speed < float("inf"):
-        raise FormatError(f"speed must be above 0 metres in a second, not {speed!r}")
-    if plan.jumps.size:
-        at = int(plan.jumps[0, 0])
-        robot = int(np.searchsorted(plan.first_action, at, side="right")) - 1
-        step = at - int(plan.first_action[robot]) + 1
-        raise FormatError(f"robot {robot} jumps in step {step}, as no robot can; check the plan")
-    area = plan.scenario.area
-    frame = area.metres
-    length = np.where(plan.arrived, np.diff(plan.first_action), plan.steps)
-    first_row = np.concatenate([[0], np.cumsum(length + 1)])
-    cells = cells_of_rows(plan, first_row)
+    area = motion.scenario.area
+    _check_no_jump(motion)
+    duration, frame = seconds_per_step(area, speed, turn_time), area.metres
+    if not (frame_id.isprintable() and frame_id.strip()):
+        raise FormatError(f"frame_id must be a name in one line, not {frame_id!r:.80}")
+    first_row, step, cells = rows_of_motion(motion)
     x, y = area.cell_to_metres(cells)
-    return Tracks(
-        area,
-        area.tessellation.longest_move * frame.cell_size / speed,
-        first_row,
-        np.arange(cells.size) - np.repeat(first_row[:-1], length + 1),
-        x,
-        y,
-        _yaw(x, y, first_row, frame.yaw),
-        plan.arrived,
-    )
+    yaw, seconds = _yaw(x, y, first_row, frame.yaw), np.asarray(step * duration)
+    if turn_time:
+        # All but the last row of a robot are there twice: before it turns, heading where it came from, and after.
+        last = np.zeros(x.size, dtype=bool)
+        last[first_row[1:] - 1] = True
+        rows = np.repeat(np.arange(x.size), np.where(last, 1, 2))
+        is_after = np.append(False, rows[1:] == rows[:-1])[: rows.size]
+        begins = np.isin(rows, first_row[:-1])
+        came = np.append(yaw[:1], yaw[:-1])  # the way of the move before, or that of the one to come while it stood
+        yaw = np.where(is_after | begins | last[rows], yaw[rows], came[rows])
+        step, x, y, seconds = step[rows], x[rows], y[rows], seconds[rows] + turn_time * is_after
+        first_row = np.append(0, np.cumsum(2 * np.diff(first_row) - 1))
+    return Tracks(area, duration, first_row, step, seconds, x, y, yaw, motion.arrived, frame_id)
+
+
+def _check_no_jump(motion: Motion) -> None:
+    if isinstance(motion, Plan) and motion.jumps.size:
+        at = int(motion.jumps[0, 0])
+        robot = int(np.searchsorted(motion.first_action, at, side="right")) - 1
+        step = at - int(motion.first_action[robot]) + 1
+        raise FormatError(f"robot {robot} jumps in step {step}, as no robot can; check the plan")
 
 
 def _yaw(

@@ -1,6 +1,6 @@
 // Clock: which step is shown, how fast it goes on, and the controls for it.
 
-import { h, number } from "./words.js";
+import { h, number, secondsOf } from "./words.js";
 import { button } from "./controls.js";
 
 const SPEEDS = [0.5, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96]; // steps per second
@@ -89,7 +89,7 @@ export class Clock {
     this.at = Math.min(app.steps, this.at + passed * this.stepsPerSecond);
     if (this.at >= app.steps) {
       this.isPlaying = false;
-      app.say("The last robot has arrived.");
+      app.say(app.runs[0]?.playback.worlds ? "The run is over." : "The last robot has arrived.");
     }
     this.show();
   }
@@ -103,8 +103,14 @@ export class Clock {
     this.playButton.disabled = !runs[0] && !live;
     this.playButton.textContent = this.isPlaying || live?.isPlaying ? "Pause" : "Play";
     if (live) this.text.textContent = `step ${number(steps)}, live`;
-    else this.text.textContent = runs[0] ? `step ${number(this.step)} / ${number(steps)}` : "no plan";
+    else this.text.textContent = runs[0] ? `step ${number(this.step)} / ${number(steps)}${this.#seconds}` : "no plan";
     this.#showStep(runs.filter(Boolean));
+  }
+
+  // How long that is, where all areas are in metres and their steps last alike.
+  get #seconds() {
+    const { runs, steps } = this.app, [one, other] = runs.map((run) => run?.step_seconds);
+    return one && (other ?? one) === one ? `, ${secondsOf(this.step * one)} of ${secondsOf(steps * one)}` : "";
   }
 
   // What depends on the step is made anew only where there is another one.

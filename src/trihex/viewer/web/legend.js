@@ -23,15 +23,17 @@ export class Legend {
   #entries() {
     const { live, runs: [run], doc, field, stage } = this.app, { values } = this.app.panes[0];
     const entries = [["barrier", "barrier", "cell"], ["destination", "destination"]];
-    if (live?.known) entries.push(["fog", "not seen", "cell"], ["fog_barrier", "barrier not seen", "cell"]);
+    const isFoggy = live?.known || run?.playback.worlds?.knownSince;
+    if (isFoggy) entries.push(["fog", "not seen", "cell"], ["fog_barrier", "barrier not seen", "cell"]);
     if (live) {
       entries.push(["moving", "moving"], ["waiting", "waiting"]);
       if (live.delays) entries.push(["late", "late"]);
       if (live.last.cut_off) entries.push(["stranded", "cut off"]);
     } else if (run) entries.push(["moving", "moving"], ["waiting", "waiting"], ["final", "arriving"]);
+    if (!live && run?.summary.delays) entries.push(["late", "late"]);
     else if (doc.robots.length) entries.push(["moving", "robot"]);
     const isStranded = run?.summary.unreachable || stage.still?.robots.state.includes(STRANDED);
-    if (!live && isStranded) entries.push(["stranded", "cannot arrive"]);
+    if (!live && (isStranded || run?.summary.broken)) entries.push(["stranded", "cannot arrive"]);
     if (values && field.hasUnreached(values)) entries.push(["unreached", "not reached", "cell"]);
     return entries;
   }

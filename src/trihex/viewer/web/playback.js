@@ -2,12 +2,13 @@
 
 import { R3 } from "./shapes.js";
 import { NOT_REACHED, centreOf, shapeOf } from "./documents.js";
+import { Worlds } from "./worlds.js";
 
-const WAIT = 255, JUMP = 254;
+const WAIT = 255, JUMP = 254, LATE = 253; // as in codes.py
 
-export const HIDDEN = 0, MOVING = 1, WAITING = 2, FINAL = 3, STRANDED = 4; // and 5, late, in live runs
+export const HIDDEN = 0, MOVING = 1, WAITING = 2, FINAL = 3, STRANDED = 4, LATE_SET = 5;
 
-const CURVES = ["moving", "waiting", "arrived", "spent", "least_total"]; // by step
+const CURVES = ["moving", "waiting", "arrived", "spent", "least_total"]; // by step; a run has no last one
 
 // Where the robots of a document stand before there is a plan.
 export class Still {
@@ -37,6 +38,11 @@ export class Playback {
     this.actions = arrays.actions;
     this.first = arrays.first_action;
     this.hasArrived = arrays.has_arrived;
+    const none = new Int32Array(this.count);
+    this.joined = arrays.joined ?? none; // the step after which each robot is there: those of a run may come later
+    this.hasLeft = arrays.has_left ?? none;
+    this.cutOffSince = arrays.cut_off_since ?? none.map(() => -1);
+    this.worlds = header.worlds ? new Worlds(doc, header.worlds, arrays.known_since) : null;
     this.jumpAt = arrays.jump_at;
     this.jumpTo = arrays.jump_to;
     this.curves = {};
@@ -85,25 +91,36 @@ export class Playback {
   #lookAhead() {
     this.#advance(this.site, this.step, this.next);
     this.#locate(this.next, this.x1, this.y1);
-    const { first, actions, hasArrived, state, step, site, x0, y0, x1, y1 } = this, { bend } = shapeOf(this.doc);
+    const { actions, state, site, x0, y0, x1, y1 } = this, { bend } = shapeOf(this.doc);
     for (let r = 0; r < this.count; r++) {
-      const length = first[r + 1] - first[r];
-      const isMove = length > step && actions[first[r] + step] < JUMP;
+      const i = this.#actionOf(r, this.step), isMove = i >= 0 && actions[i] < LATE;
       [this.bx[r], this.by[r]] = isMove ? bend(site[r] & 1, x1[r] - x0[r], y1[r] - y0[r]) : [0, 0];
-      if (length <= step) state[r] = hasArrived[r] ? HIDDEN : STRANDED;
-      else if (hasArrived[r] && length === step + 1) state[r] = FINAL;
-      else state[r] = actions[first[r] + step] === WAIT ? WAITING : MOVING;
+      state[r] = this.#setOf(r, i);
     }
   }
 
+  // The index of what a robot does in the step after `step`, -1 if it is not there or has nothing more to do.
+  #actionOf(r, step) {
+    const i = this.first[r] + step - this.joined[r];
+    return step >= this.joined[r] && i < this.first[r + 1] ? i : -1;
+  }
+
+  #setOf(r, i) {
+    const { first, actions, step, cutOffSince, hasArrived, hasLeft } = this, isCutOff = cutOffSince[r] >= 0;
+    if (step < this.joined[r]) return HIDDEN;
+    if (i < 0) return hasArrived[r] || hasLeft[r] ? HIDDEN : STRANDED;
+    if (isCutOff && cutOffSince[r] <= step) return STRANDED;
+    if (hasArrived[r] && i + 1 === first[r + 1]) return FINAL;
+    return actions[i] === LATE ? LATE_SET : actions[i] === WAIT ? WAITING : MOVING;
+  }
+
   #advance(site, step, out) {
-    const { first, actions, offsets } = this;
-    const [even, odd] = offsets;
+    const { actions, offsets: [even, odd] } = this;
     for (let r = 0; r < this.count; r++) {
-      const i = first[r] + step, at = site[r];
-      if (i >= first[r + 1]) out[r] = at;
-      else if (actions[i] < JUMP) out[r] = at + (at & 1 ? odd : even)[actions[i]];
-      else out[r] = actions[i] === WAIT ? at : this.jumpTo[this.#jumpOf(i)];
+      const i = this.#actionOf(r, step), at = site[r];
+      if (i < 0) out[r] = at;
+      else if (actions[i] < LATE) out[r] = at + (at & 1 ? odd : even)[actions[i]];
+      else out[r] = actions[i] === JUMP ? this.jumpTo[this.#jumpOf(i)] : at;
     }
   }
 
@@ -144,16 +161,17 @@ export class Playback {
       return y * this.doc.width + (site - origin - y * pitch);
     };
     let site = this.kept[0][r], d = 0, w = 0;
-    const rows = [{ cell: cellOf(site), d, w, action: "start" }];
+    // Row by row from step 0: before it joins a run, a robot stands where it will.
+    const rows = Array.from({ length: this.joined[r] + 1 }, () => ({ cell: cellOf(site), d, w, action: "start" }));
     for (let i = this.first[r]; i < this.first[r + 1]; i++) {
       const action = this.actions[i], parity = site & 1;
-      if (action === WAIT) w += wait;
+      if (action === WAIT || action === LATE) w += wait;
       else if (action === JUMP) site = this.jumpTo[this.#jumpOf(i)];
       else {
         d += costs[action];
         site += this.offsets[parity][action];
       }
-      const name = action === WAIT ? "wait" : action === JUMP ? "jump" : names[parity][action];
+      const name = { [WAIT]: "wait", [JUMP]: "jump", [LATE]: "late" }[action] ?? names[parity][action];
       rows.push({ cell: cellOf(site), d, w, action: name });
     }
     return { rows, hasArrived: !!this.hasArrived[r] };
