@@ -9,7 +9,7 @@ import click
 
 from trihex.cli.group import DONE, NO
 from trihex.cli.options import PATH, area_options, read_played, rule_options
-from trihex.cli.outputs import check_outputs
+from trihex.cli.outputs import check_outputs, tell_written
 from trihex.cli.progress import bar
 from trihex.cli.types import Whole
 
@@ -47,6 +47,7 @@ def command(plan: Path, area: Path | None, limit: int, summary: Path | None, **o
         counts = (count_corner_moves(judged, rule) for rule in ("no-cut", "no-squeeze"))
         for line in corner_lines(judged, *counts):
             click.echo(line)
+        tell_written(summary)
     if audit.is_clean:
         return DONE
     click.echo("\n".join(conflict_lines(audit, limit)), err=str(summary) == "-")
@@ -67,6 +68,7 @@ def _check_run(path: Path, run: Any, limit: int, summary: Path | None) -> int:
     if str(summary) != "-":
         arrived = int(run.arrived.sum())
         click.echo(f"{path}: {arrived} of {run.robots.size} robots arrived in {run.steps} steps; {verdict(audit)}")
+        tell_written(summary)
     if not audit.is_clean:
         click.echo("\n".join(conflict_lines(audit, limit)), err=str(summary) == "-")
     return DONE if audit.is_clean else NO

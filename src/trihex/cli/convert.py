@@ -18,7 +18,7 @@ from trihex.cli.options import (
     waypoint_options,
     wrong_use,
 )
-from trihex.cli.outputs import check_outputs
+from trihex.cli.outputs import check_outputs, tell_written
 from trihex.cli.progress import bar
 
 
@@ -56,6 +56,7 @@ def command(source: Path, target: Path, area: Path | None, waypoints: bool, **op
         else:
             with bar("writing", "parts") as progress:
                 write_plan(plan, target, progress=progress)
+        tell_written(target)
         return
     if area is not None or waypoints:
         raise wrong_use(f"--{'area' if area else 'waypoints'} is for plans; {source} holds none")
@@ -73,6 +74,7 @@ def _convert_starts(source: Path, target: Path, area: Path | None, options: dict
         raise wrong_use(f"{source} holds starts in an area: add --area AREA")
     own = read_described(area, options).area
     write_starts(own, read_starts(source, own), target)
+    tell_written(target)
 
 
 def _convert_area(source: Path, target: Path, options: dict[str, Any]) -> None:
@@ -84,6 +86,7 @@ def _convert_area(source: Path, target: Path, options: dict[str, Any]) -> None:
     check_outputs((target, AREA_SUFFIXES if is_area else SCENARIO_SUFFIXES, "an area" if is_area else "a scenario"))
     if is_area:
         write_area(draft.area, target)
+        tell_written(target)
         return
     scenario = draft.complete()
     if target.suffix.lower() == ".txt" and (lost := lost_in_letters(scenario)):
@@ -91,3 +94,4 @@ def _convert_area(source: Path, target: Path, options: dict[str, Any]) -> None:
     write_scenario(
         scenario, target, planner=draft.planner or "", planner_options=draft.planner_options, outputs=draft.outputs
     )
+    tell_written(target)

@@ -23,7 +23,7 @@ PATH = click.Path(path_type=Path)
 
 # What `rule_options` adds, and what `formats.options.AreaOptions` takes besides the tessellation.
 RULES = ("waiting_cost", "crossing", "corners", "destination_capacity", "destination")
-_PLACE = ("cell_size", "robot_radius", "unknown", "threshold", "invert", "resolution")
+_PLACE = ("cell_size", "robot_radius", "clearance", "unknown", "threshold", "invert", "resolution")
 
 
 def area_options(command: Command) -> Command:
@@ -39,6 +39,7 @@ def area_options(command: Command) -> Command:
             type=Name("trihex.formats.areas.options", "UNKNOWNS"),
             help="ROS maps: what unknown ground is. [default: barrier]",
         ),
+        click.option("--clearance", type=Metres(), help="In metres: how far robots keep beyond touching. [default: 0]"),
         click.option("--robot-radius", type=Metres(), help="In metres: robots touch neither walls nor each other."),
         click.option("--cell-size", type=Metres(), help="Edge step in metres."),
         click.option(

@@ -114,7 +114,7 @@ def parse_image(content: bytes, path: str | os.PathLike[str], options: AreaOptio
     occupied = is_free if options.invert else ~is_free
     name = Path(path).stem
     if options.cell_size is None:
-        if options.robot_radius or options.resolution is not None:
+        if options.reach or options.resolution is not None:
             raise FormatError(f"{path}: robot_radius and resolution need cell_size, the edge step of a cell in metres")
         return Draft(Area(options.tessellation, occupied, name))
     if options.resolution is None:

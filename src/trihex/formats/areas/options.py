@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from numbers import Real
 
 from trihex.areas import Covering, Tessellation, tessellation_from
-from trihex.errors import FormatError, check_choice
+from trihex.errors import FormatError, check_choice, check_number
 from trihex.record import Record
 
 UNKNOWNS = ("barrier", "free")
@@ -24,6 +24,8 @@ class AreaOptions(Record):
         ``.map`` and ``.txt``, one cell for each letter, it only says how large a cell is.
     robot_radius : float
         In metres; how far robots are to keep from what is occupied, and half of how far from each other.
+    clearance : float
+        In metres; how much farther than that they keep, so that none touches at less than this beyond its way.
     unknown : {"barrier", "free"}
         What ground is that a ROS map does not know, and all that lies outside a ROS map or an image.
     threshold : float
@@ -42,6 +44,7 @@ class AreaOptions(Record):
     tessellation: Tessellation
     cell_size: float | None = None
     robot_radius: float = 0.0
+    clearance: float = 0.0
     unknown: str = "barrier"
     threshold: float = 0.5
     invert: bool = False
@@ -52,9 +55,15 @@ class AreaOptions(Record):
         check_choice("unknown", self.unknown, UNKNOWNS, FormatError)
         if not isinstance(self.threshold, Real) or not 0 <= self.threshold <= 1:
             raise FormatError(f"threshold must be between 0 and 1, not {self.threshold!r:.80}")
+        check_number("clearance", self.clearance, 0, 1e9, FormatError)
         if self.resolution is not None:
             if not isinstance(self.resolution, Real) or not 1e-9 <= self.resolution <= 1e9:
                 raise FormatError(f"resolution must be between 1e-9 and 1e9 metres, not {self.resolution!r:.80}")
+
+    @property
+    def reach(self) -> float:
+        """How far from its centre nothing may come to a robot, in metres."""
+        return self.robot_radius + self.clearance
 
     def covering_of(self, path: object, kind: str, east: float, south: float) -> Covering:
         """Return how to cover a place of so many metres; raise FormatError if there is no cell size or too large a one.
@@ -66,7 +75,7 @@ class AreaOptions(Record):
                 f"{path}: {kind} is measured in metres: say how far apart the centres of neighbouring cells shall be, "
                 "cell_size 0.5 for half a metre (--cell-size on the command line)"
             )
-        covering = Covering(self.tessellation, self.cell_size, self.robot_radius)
+        covering = Covering(self.tessellation, self.cell_size, self.reach)
         if max(east, south) < covering.cell_size:
             raise FormatError(
                 f"{path}: {kind} must be larger than a cell of {covering.cell_size:g} metres, not {east:.3g} by "

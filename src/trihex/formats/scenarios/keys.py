@@ -35,6 +35,7 @@ class AreaTable(Table):
     # How the file at `path` is read; see `formats.options.AreaOptions`.
     cell_size: Annotated[Number, Field(gt=0)] | None = None
     robot_radius: Annotated[Number, Field(ge=0)] | None = None
+    clearance: Annotated[Number, Field(ge=0)] | None = None
     unknown: Annotated[str, choice("it", UNKNOWNS)] | None = None
     threshold: Annotated[Number, Field(ge=0, le=1)] | None = None
     invert: bool | None = None

@@ -112,7 +112,7 @@ def _outputs(table: ScenarioTable, path: Path) -> dict[str, Any]:
 
 def _area_draft(table: AreaTable, path: Path, read_area_draft: Callable[[Path, AreaOptions], Draft]) -> Draft:
     tessellation = Tessellation(table.tessellation, table.neighbourhood, table.costs)
-    names = ("cell_size", "robot_radius", "unknown", "threshold", "invert", "resolution")
+    names = ("cell_size", "robot_radius", "clearance", "unknown", "threshold", "invert", "resolution")
     options = {name: value for name in names if (value := getattr(table, name)) is not None}
     if table.path is not None:
         draft = read_area_draft(path.parent / table.path, AreaOptions(tessellation, **options))
