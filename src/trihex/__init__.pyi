@@ -12,6 +12,7 @@ from .areas import (
     random_robots as random_robots,
 )
 from .bounds import (
+    EarliestArrivals as EarliestArrivals,
     LowerBound as LowerBound,
     cut_bound as cut_bound,
     distance_bound as distance_bound,
@@ -75,26 +76,34 @@ from .pictures import (
     draw_arrivals as draw_arrivals,
     draw_comparison as draw_comparison,
     draw_d_scheme as draw_d_scheme,
+    draw_exits as draw_exits,
     draw_generation as draw_generation,
     draw_generations as draw_generations,
     draw_n_scheme as draw_n_scheme,
     draw_plan as draw_plan,
     picture_of_area as picture_of_area,
     picture_of_d_scheme as picture_of_d_scheme,
+    picture_of_density as picture_of_density,
     picture_of_generation as picture_of_generation,
     picture_of_n_scheme as picture_of_n_scheme,
     picture_of_plan as picture_of_plan,
     picture_of_run as picture_of_run,
+    picture_of_waiting as picture_of_waiting,
     write_animation as write_animation,
     write_run_animation as write_run_animation,
 )
 from .planners import (
+    make_earliest_arrivals as make_earliest_arrivals,
     make_plan as make_plan,
 )
 from .plans import (
     Arrivals as Arrivals,
+    Exits as Exits,
     Plan as Plan,
     make_arrivals as make_arrivals,
+    make_density_map as make_density_map,
+    make_exits as make_exits,
+    make_waiting_map as make_waiting_map,
 )
 from .running import (
     Event as Event,

@@ -222,6 +222,11 @@ class Tessellation(Record):
             return read_only(np.array([10 if row[4] is None else 14 for row in self._rows[0]], dtype=np.int32))
         return read_only(np.array([round(1000 * row[3]) for row in self._rows[0]], dtype=np.int32))
 
+    @property
+    def area_of_cell(self) -> float:
+        """Area of a cell, in square edge steps."""
+        return {"triangular": 3 * sqrt(3) / 4, "hexagonal": sqrt(3) / 2, "square": 1.0}[self.name]
+
     @cached_property
     def longest_move(self) -> float:
         """Greatest distance that a move covers, in edge steps: 1, sqrt(2) or 2."""

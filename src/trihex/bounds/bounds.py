@@ -21,6 +21,7 @@ from trihex.bounds.cuts import Cut, find_cuts
 from trihex.bounds.demand import Demand, make_demand
 from trihex.bounds.gates import make_gate_network
 from trihex.bounds.meetings import find_meeting_nodes
+from trihex.bounds.queues import queue_past_cuts
 from trihex.bounds.serving import least_arrivals
 from trihex.errors import PlanError, check_type, check_whole
 from trihex.fields import NScheme
@@ -120,7 +121,7 @@ def _steps_past_gates(demand: Demand, most_gates: int, progress: Callable[[int, 
     cuts = []
     if entries * demand.nodes.count <= _MOST_SENT:
         cuts = find_cuts(demand, most_searches=_MOST_VISITS // (4 * free_cells) + 1)
-    queued = _steps_past_cuts(demand, cuts, entries)
+    queued = queue_past_cuts(demand, cuts, entries)
     visits = min(_MOST_VISITS, _VISITS_PER_ROBOT * demand.sites.size)
     gates = _choose_gates(demand, cuts, min(most_gates, visits // free_cells))
     horizon = int(queued.max(initial=0)) * 5 // 4 + 100
@@ -132,26 +133,6 @@ def _steps_past_gates(demand: Demand, most_gates: int, progress: Callable[[int, 
     left = np.arange(demand.sites.size - served)
     total += int((last + 1 + left // entries).sum())
     return max(total, int(queued.sum()))
-
-
-def _steps_past_cuts(demand: Demand, cuts: list[Cut], entries: int) -> NDArray[np.int64]:
-    """Return a least number of steps of each robot in some order, if of those behind a cut only `width` pass it a step.
-
-    Where a robot passes the cut it is known how soon it can arrive. So the numbers of steps of those behind the first
-    cut are delayed until each occurs at most `width` times, then together with the next ones at the next cut.
-    """
-    from trihex.bounds.kernels import steps as kernels
-
-    queued = demand.steps[:0]
-    is_behind = np.zeros(demand.sites.size, dtype=bool)
-    for cut in cuts:
-        new = cut.behind[~is_behind[cut.behind]]
-        is_behind[new] = True
-        queued = np.sort(np.concatenate([queued, demand.steps[new]]))
-        kernels.queue_up(queued, cut.width)
-    queued = np.sort(np.concatenate([queued, demand.steps[~is_behind]]))
-    kernels.queue_up(queued, max(entries, 1))
-    return queued
 
 
 def _choose_gates(demand: Demand, cuts: list[Cut], most: int) -> NDArray[np.int32]:

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import click
 
 from trihex.cli.group import DONE, NO
+from trihex.cli.maps import Maps, check_maps, map_options, write_maps
 from trihex.cli.options import (
     PATH,
     area_options,
@@ -50,13 +51,16 @@ class Outputs(NamedTuple):
 @click.option("--picture", type=PATH, metavar="FILE", help="The plan drawn, as .png, .svg or .pdf.")
 @click.option("--waypoints", type=PATH, metavar="FILE", help="Where each robot is when, in metres and seconds.")
 @waypoint_options
+@map_options
 @click.option("--write-scenario", type=PATH, metavar="FILE", help="All that was planned, as a scenario .toml.")
 @gathered("named", Outputs)
+@gathered("maps", Maps)
 def command(
     area: Path,
     planner: str | None,
     planner_option: tuple[str, ...],
     named: Outputs,
+    maps: Maps,
     write_scenario: Path | None,
     **options: Any,
 ) -> int:
@@ -72,6 +76,7 @@ def command(
 
     outputs: dict[str, Any] = {name: value for name, value in named._asdict().items() if value is not None}
     _check_outputs(outputs, write_scenario)
+    check_maps(maps)
     begin = perf_counter()
     draft = read_described(area, options)
     seconds = {"read": perf_counter() - begin}
@@ -86,6 +91,7 @@ def command(
     pace: dict[str, float] = {name: outputs[name] for name in ("speed", "turn_time") if name in outputs}
     report = _reported(scenario, planner, planner_options, seconds, pace)
     _write(report, draft, outputs)
+    write_maps(report.plan, maps, pace)
     if write_scenario:
         from trihex.formats import write_scenario as write_scenario_file
 
@@ -93,7 +99,8 @@ def command(
         write_scenario_file(scenario, write_scenario, planner=planner, planner_options=planner_options, outputs=kept)
     status = _told(report, outputs.get("summary"))
     if str(outputs.get("summary")) != "-":
-        tell_written(*(outputs.get(name) for name in ("plan", "summary", "picture", "waypoints")), write_scenario)
+        files = (outputs.get(name) for name in ("plan", "summary", "picture", "waypoints"))
+        tell_written(*files, *maps, write_scenario)
     return status
 
 

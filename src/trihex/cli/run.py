@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import click
 
 from trihex.cli.group import DONE, NO
+from trihex.cli.maps import Maps, check_maps, map_options, write_maps
 from trihex.cli.options import (
     PATH,
     area_options,
@@ -76,10 +77,12 @@ class Outputs(NamedTuple):
 @click.option("--animation", type=PATH, metavar="FILE", help="The robots on their way, as .gif, .mp4 or .html.")
 @click.option("--waypoints", type=PATH, metavar="FILE", help="Where each robot was when, in metres and seconds.")
 @waypoint_options
+@map_options
 @gathered("beginning", Beginning)
 @gathered("way", Way)
 @gathered("outputs", Outputs)
-def command(beginning: Beginning, way: Way, outputs: Outputs, max_steps: int, **options: Any) -> int:
+@gathered("maps", Maps)
+def command(beginning: Beginning, way: Way, outputs: Outputs, maps: Maps, max_steps: int, **options: Any) -> int:
     """Let robots run through a world that changes, is unknown to them, or makes them late.
 
     AREA is what `trihex plan` takes. In each step events happen, robots look around, and each is told one safe move.
@@ -91,6 +94,7 @@ def command(beginning: Beginning, way: Way, outputs: Outputs, max_steps: int, **
 
     pace = of_waypoints(options)
     _check_outputs(outputs)
+    check_maps(maps)
     if way.line_of_sight and way.sense is None:
         raise wrong_use("--line-of-sight is about what robots see: add --sense")
     events = read_events(way.events) if way.events else ()
@@ -108,12 +112,13 @@ def command(beginning: Beginning, way: Way, outputs: Outputs, max_steps: int, **
     if outputs.out is not None:
         with bar("writing", "bytes") as progress:
             write_run(run, outputs.out, progress=progress)
-    timed = {name: pace[name] for name in ("speed", "turn_time") if name in pace}
+    timed: dict[str, float] = {name: pace[name] for name in ("speed", "turn_time") if name in pace}
     report = make_run_report(run, **told, **timed)
     _write(report, outputs, pace)
+    write_maps(run, maps, timed)
     status = _told(report, outputs.summary, is_over=is_over)
     if str(outputs.summary) != "-":
-        tell_written(*outputs)
+        tell_written(*outputs, *maps)
     return status
 
 

@@ -7,12 +7,17 @@ from .axes import (
 from .charts import (
     draw_arrivals as draw_arrivals,
     draw_comparison as draw_comparison,
+    draw_exits as draw_exits,
 )
 from .film import (
     MOVIE_SUFFIXES as MOVIE_SUFFIXES,
 )
 from .generations import (
     draw_generations as draw_generations,
+)
+from .map_picture import (
+    picture_of_density as picture_of_density,
+    picture_of_waiting as picture_of_waiting,
 )
 from .movie import (
     write_animation as write_animation,

@@ -12,10 +12,11 @@ from typing import Any
 import numpy as np
 
 from trihex.areas import seconds_per_step
+from trihex.bounds import EarliestArrivals
 from trihex.errors import FormatError, check_many, check_type
 from trihex.pictures.axes import fit_legend, keep_room, matplotlib, new_axes, rgb, series
 from trihex.pictures.palette import INK
-from trihex.plans import Motion
+from trihex.plans import Motion, make_exits
 
 # What is asked of a run beside its robots: rows that differ in one of these never become one bar.
 _RULES = ("neighbourhood", "costs", "waiting_cost", "crossing", "corners", "destination_capacity")
@@ -53,6 +54,50 @@ def draw_arrivals(
         times = np.array([0, *steps, plan.steps]) * unit
         ax.step(times, arrived, where="post", color=series(number), label=label)
     ax.set_xlabel("seconds" if in_seconds else "step")
+    ax.set_ylabel("robots arrived")
+    ax.set_ylim(bottom=0)
+    if title:
+        ax.set_title(title)
+    if legend:
+        ax.legend()
+    return ax
+
+
+def draw_exits(
+    plan: Motion,
+    earliest: EarliestArrivals | None = None,
+    ax: Any = None,
+    *,
+    title: str | None = None,
+    legend: bool = True,
+    speed: float = 1.0,
+) -> Any:
+    """Draw N(t), how many robots have arrived, for each exit and in all, beside what no plan can beat; return the Axes.
+
+    Parameters
+    ----------
+    plan : Plan or Run
+    earliest : EarliestArrivals, optional
+        Of `make_earliest_arrivals`: a line that no other crosses. It holds in the world as it was at the beginning.
+    ax : Axes, optional
+    title : str, optional
+    legend : bool
+    speed : float
+        Metres in a second: in a place in metres the time is in seconds.
+    """
+    check_type("plan", plan, Motion)
+    check_type("earliest", earliest, EarliestArrivals, type(None))
+    ax, exits, area = new_axes(ax), make_exits(plan), plan.scenario.area
+    unit = 1.0 if area.frame is None else seconds_per_step(area, speed)
+    times = np.arange(plan.steps + 1) * unit
+    if earliest is not None:
+        words = "least possible" if earliest.name == "optimum" else f"bound ({earliest.name})"
+        ax.step(times, earliest.curve(plan.steps), where="post", color=rgb(INK), linestyle="--", label=words)
+    if len(exits.names) > 1:
+        ax.step(times, exits.total, where="post", color=rgb(INK), label="all exits")
+    for number, (name, arrived) in enumerate(zip(exits.names, exits.arrived, strict=True)):
+        ax.step(times, arrived, where="post", color=series(number), label=name)
+    ax.set_xlabel("step" if area.frame is None else "seconds")
     ax.set_ylabel("robots arrived")
     ax.set_ylim(bottom=0)
     if title:

@@ -1,3 +1,6 @@
+from .earliest import (
+    make_earliest_arrivals as make_earliest_arrivals,
+)
 from .naming import (
     planner_from as planner_from,
 )

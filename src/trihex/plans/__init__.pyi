@@ -2,6 +2,15 @@ from .arrivals import (
     Arrivals as Arrivals,
     make_arrivals as make_arrivals,
 )
+from .exits import (
+    Exits as Exits,
+    exits_among as exits_among,
+    make_exits as make_exits,
+)
+from .maps import (
+    make_density_map as make_density_map,
+    make_waiting_map as make_waiting_map,
+)
 from .motion import (
     Motion as Motion,
     rows_of_motion as rows_of_motion,
