@@ -37,9 +37,15 @@ from .hexagons import (
 from .layout import (
     Layout as Layout,
 )
+from .nearest import (
+    nearest_free_cell as nearest_free_cell,
+)
 from .places import (
     cells_from as cells_from,
     numbers_from as numbers_from,
+)
+from .reaching import (
+    least_advance as least_advance,
 )
 from .regions import (
     make_regions as make_regions,

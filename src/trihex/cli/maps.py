@@ -83,7 +83,11 @@ def _write_exits(motion: Any, path: Path, speed: dict[str, Any]) -> None:
     from trihex.planners import make_earliest_arrivals
     from trihex.plans import make_exits
 
-    earliest, area = make_earliest_arrivals(motion.scenario), motion.scenario.area
+    area = motion.scenario.area
+    # Where ways or destinations open, or others join, robots may be earlier than in the world as it was.
+    occurrences = [one for one in getattr(motion, "occurrences", ()) if one.is_accepted]
+    is_easier = any(one.freed or one.opened or one.event.kind == "join" for one in occurrences)
+    earliest = None if is_easier else make_earliest_arrivals(motion.scenario)
     if path.suffix.lower() != ".csv":
         from trihex.pictures import draw_exits
 
@@ -91,11 +95,13 @@ def _write_exits(motion: Any, path: Path, speed: dict[str, Any]) -> None:
         with new_file(path) as part:
             ax.figure.savefig(part, format=path.suffix.lower()[1:])
         return
-    exits, most = make_exits(motion), earliest.curve(motion.steps)
+    exits = make_exits(motion)
+    bound = {} if earliest is None else {f"most ({earliest.name})": earliest.curve(motion.steps).tolist()}
     seconds = None if area.frame is None else seconds_per_step(area, **speed)
     rows: list[dict[str, Any]] = []
     for step in range(motion.steps + 1):
         when = {"step": step} if seconds is None else {"step": step, "seconds": round(step * seconds, 6)}
         by_exit = dict(zip(exits.names, exits.arrived[:, step].tolist(), strict=True))
-        rows.append({**when, "arrived": int(exits.total[step]), f"most ({earliest.name})": int(most[step]), **by_exit})
+        most = {name: curve[step] for name, curve in bound.items()}
+        rows.append({**when, "arrived": int(exits.total[step]), **most, **by_exit})
     write_values(rows, path)

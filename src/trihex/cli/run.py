@@ -112,7 +112,7 @@ def command(beginning: Beginning, way: Way, outputs: Outputs, maps: Maps, max_st
     if outputs.out is not None:
         with bar("writing", "bytes") as progress:
             write_run(run, outputs.out, progress=progress)
-    timed: dict[str, float] = {name: pace[name] for name in ("speed", "turn_time") if name in pace}
+    timed: dict[str, Any] = {name: pace[name] for name in ("speed", "turn_time") if name in pace}
     report = make_run_report(run, **told, **timed)
     _write(report, outputs, pace)
     write_maps(run, maps, timed)

@@ -46,6 +46,9 @@ from .toml import (
     complaint as complaint,
     read_toml as read_toml,
 )
+from .tracks.trajectories import (
+    read_trajectories as read_trajectories,
+)
 from .values_csv import (
     write_values as write_values,
 )

@@ -14,6 +14,7 @@ import numpy as np
 from trihex.areas import seconds_per_step
 from trihex.bounds import EarliestArrivals
 from trihex.errors import FormatError, check_many, check_type
+from trihex.judging import Score
 from trihex.pictures.axes import fit_legend, keep_room, matplotlib, new_axes, rgb, series
 from trihex.pictures.palette import INK
 from trihex.plans import Motion, make_exits
@@ -99,6 +100,25 @@ def draw_exits(
         ax.step(times, arrived, where="post", color=series(number), label=name)
     ax.set_xlabel("step" if area.frame is None else "seconds")
     ax.set_ylabel("robots arrived")
+    ax.set_ylim(bottom=0)
+    if title:
+        ax.set_title(title)
+    if legend:
+        ax.legend()
+    return ax
+
+
+def draw_score(score: Score, ax: Any = None, *, title: str | None = None, legend: bool = True) -> Any:
+    """Draw N(t) of a recorded crowd beside the bound that it cannot pass; return the Axes."""
+    check_type("score", score, Score)
+    ax, arrivals = new_axes(ax), score.arrivals
+    end = max(float(times.max(initial=0)) for times in (arrivals, score.earliest))
+    for times, words, style in ((score.earliest, "bound", "--"), (arrivals, score.trajectories.name, "-")):
+        counts = np.append(np.arange(times.size + 1), times.size)
+        colour = rgb(INK) if style == "--" else series(0)
+        ax.step([0, *times, end], counts, where="post", color=colour, linestyle=style, label=words)
+    ax.set_xlabel("seconds")
+    ax.set_ylabel("persons arrived")
     ax.set_ylim(bottom=0)
     if title:
         ax.set_title(title)

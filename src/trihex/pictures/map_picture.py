@@ -7,14 +7,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import seconds_per_step
+from trihex.areas import Scenario, seconds_per_step
 from trihex.errors import check_type
+from trihex.judging import Score
 from trihex.pictures import marks as make, palette
 from trihex.pictures.legend import barrier_keys, colours_of
 from trihex.pictures.palette import BARRIER, DESTINATION, FREE
 from trihex.pictures.picture import Picture, titled
 from trihex.pictures.scene import Key, Ramp, Scene, colour_rows, scale_for
-from trihex.pictures.setting import setting_of
+from trihex.pictures.setting import Setting, setting_of
 from trihex.plans import Motion, make_density_map, make_waiting_map
 
 _SHADES = 240
@@ -38,7 +39,9 @@ def picture_of_waiting(
     seconds = 1.0 if area.frame is None else seconds_per_step(area, speed)
     unit = "steps" if area.frame is None else "seconds"
     more = f", {seconds * lost.sum():.6g} {unit} in all"
-    return _picture(plan, lost * seconds, f"{unit} lost", "Waiting", more, (width, title, legend))
+    return _picture(
+        setting_of(plan), lost * seconds, f"{unit} lost", _named("Waiting", plan), more, (width, title, legend)
+    )
 
 
 def picture_of_density(
@@ -51,19 +54,36 @@ def picture_of_density(
     check_type("plan", plan, Motion)
     unit = "robots a cell" if plan.scenario.area.frame is None else "robots a square metre"
     more = f", mean over {plan.steps} steps"
-    return _picture(plan, make_density_map(plan), unit, "Density", more, (width, title, legend))
+    return _picture(
+        setting_of(plan), make_density_map(plan), unit, _named("Density", plan), more, (width, title, legend)
+    )
+
+
+def picture_of_lost(
+    score: Score, *, width: int | None = None, title: str | None = None, legend: bool = True
+) -> Picture:
+    """Return the picture of the seconds that a recorded crowd lost in each cell.
+
+    Parameters
+    ----------
+    score : Score
+    width, title, legend
+        As for `picture_of_area`.
+    """
+    check_type("score", score, Score)
+    more = f", {score.trajectories.name}, {score.lost.sum():.6g} seconds in all"
+    return _picture(score.scenario, score.lost, "seconds lost", "Time lost", more, (width, title, legend))
 
 
 def _picture(
-    plan: Motion,
+    setting: Scenario | Setting,
     values: NDArray[Any],
     words: str,
     what: str,
     more: str,
     look: tuple[int | None, str | None, bool],
 ) -> Picture:
-    setting, (width, title, legend) = setting_of(plan), look
-    area = setting.area
+    area, (width, title, legend) = setting.area, look
     scale = scale_for(area, width)
     most, shades = float(values.max(initial=0)), palette.visits_ramp(_SHADES)
     cells = make.base_cells(setting, _SHADES, _SHADES + 1, _SHADES + 2)
@@ -75,5 +95,8 @@ def _picture(
     marks = make.destination_marks(setting, scale)
     bold = (*range(_SHADES), _SHADES + 1, _SHADES + 2)
     scene = Scene(area, cells, colours, scale, bold, tuple(marks), tuple(keys))
-    name = f"{what} ({plan.planner})" if plan.planner else what
-    return titled(scene, title, name, more, legend)
+    return titled(scene, title, what, more, legend)
+
+
+def _named(what: str, plan: Motion) -> str:
+    return f"{what} ({plan.planner})" if plan.planner else what

@@ -24,6 +24,9 @@ from .plan import (
 from .playback import (
     make_playback as make_playback,
 )
+from .trajectories import (
+    Trajectories as Trajectories,
+)
 from .turning import (
     turning_of_robot as turning_of_robot,
 )
