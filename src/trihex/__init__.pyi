@@ -100,6 +100,7 @@ from .pictures import (
 from .planners import (
     make_earliest_arrivals as make_earliest_arrivals,
     make_plan as make_plan,
+    straighten as straighten,
 )
 from .plans import (
     Arrivals as Arrivals,

@@ -46,6 +46,7 @@ class Outputs(NamedTuple):
 @robot_options
 @click.option("--planner", type=Name("trihex.planners", "PLANNERS"), help="Who plans. [default: fcost]")
 @click.option("--planner-option", metavar="NAME=VALUE", multiple=True, help="One of its options; may be repeated.")
+@click.option("--straight", is_flag=True, help="Then let robots turn less, with equal arrivals and at no more cost.")
 @click.option("--out", "plan", type=PATH, metavar="PLAN", help="The plan, as .csv or .npz.")
 @click.option("--summary", type=PATH, metavar="FILE", help="The report as JSON; - writes it to the standard output.")
 @click.option("--picture", type=PATH, metavar="FILE", help="The plan drawn, as .png, .svg or .pdf.")
@@ -59,6 +60,7 @@ def command(
     area: Path,
     planner: str | None,
     planner_option: tuple[str, ...],
+    straight: bool,
     named: Outputs,
     maps: Maps,
     write_scenario: Path | None,
@@ -89,7 +91,7 @@ def command(
     if "waypoints" in outputs and scenario.area.frame is None:
         raise wrong_use("--waypoints are in metres: add --cell-size")
     pace: dict[str, float] = {name: outputs[name] for name in ("speed", "turn_time") if name in outputs}
-    report = _reported(scenario, planner, planner_options, seconds, pace)
+    report = _reported(scenario, planner, planner_options, seconds, pace, straight=straight)
     _write(report, draft, outputs)
     write_maps(report.plan, maps, pace)
     if write_scenario:
@@ -148,13 +150,19 @@ def _write(report: Any, draft: Any, outputs: dict[str, Any]) -> None:
 
 
 def _reported(
-    scenario: Any, planner: str, planner_options: dict[str, Any], seconds: dict[str, float], pace: dict[str, float]
+    scenario: Any,
+    planner: str,
+    planner_options: dict[str, Any],
+    seconds: dict[str, float],
+    pace: dict[str, float],
+    *,
+    straight: bool,
 ) -> Any:
     """Plan, judge and report; add to `seconds` how long each part took."""
     from trihex.bounds import make_lower_bound
     from trihex.fields import make_n_scheme
     from trihex.judging import audit_plan, make_report
-    from trihex.planners import make_plan
+    from trihex.planners import make_plan, straighten
 
     begin = perf_counter()
     n_scheme = make_n_scheme(scenario)
@@ -162,6 +170,9 @@ def _reported(
     begin = perf_counter()
     with bar("planning", "robots") as progress:
         plan = make_plan(scenario, planner, n_scheme=n_scheme, progress=progress, **planner_options)
+    if straight:
+        with bar("straightening", "robots") as progress:
+            plan = straighten(plan, progress=progress)
     seconds["plan"] = perf_counter() - begin
     begin = perf_counter()
     with bar("judging", "actions") as progress:

@@ -27,6 +27,7 @@ KERNELS_OF: dict[str, tuple[str, ...]] = {
     "fcost": _FCOST,
     "astar": _ASTAR,
     "optimal": (*_FCOST, *_OPTIMUM),
+    "straight": (*_ASTAR, "planners.straight"),
     "audit": ("judging.audit", "plans.replay"),
     "bound": (*_BOUND, "bounds.steps", "bounds.units"),
     "execution": _EXECUTION,

@@ -12,3 +12,6 @@ from .registry import (
     options_of as options_of,
     planner_named as planner_named,
 )
+from .straighten import (
+    straighten as straighten,
+)
