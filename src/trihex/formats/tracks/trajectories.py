@@ -12,12 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.errors import FormatError
-from trihex.formats.text import read_text
+from trihex.files import read_bytes
+from trihex.formats.text import Text, check_text
 from trihex.plans import Trajectories
 
-SUFFIXES = (".sqlite", ".db", ".txt")
 MAX_ROWS = 50_000_000
+MAX_TEXT = 2**30
 _HEAD = b"SQLite format 3\0"
+_LARGEST = 1e9
 
 
 def read_trajectories(path: str | os.PathLike[str]) -> Trajectories:
@@ -33,17 +35,17 @@ def read_trajectories(path: str | os.PathLike[str]) -> Trajectories:
     OSError
         If it cannot be read.
     """
-    with open(path, "rb") as file:
-        head = file.read(len(_HEAD))
-    rate, table = _from_sqlite(path) if head == _HEAD else _from_text(path)
-    if not 0 < rate < float("inf"):
-        raise FormatError(f"{path}: the frame rate must be above 0 frames a second, not {rate:g}")
+    content = read_bytes(path)
+    is_sqlite = content.startswith(_HEAD)
+    rate, table = _from_sqlite(content, path) if is_sqlite else _from_text(check_text(content, path, MAX_TEXT), path)
+    if not 1e-6 <= rate <= 1e6:
+        raise FormatError(f"{path}: the frame rate must be 1e-06 to 1e+06 frames a second, not {rate:g}")
     if len(table) == 0:
         raise FormatError(f"{path}: there must be at least one person")
-    if not np.isfinite(table).all():
-        raise FormatError(f"{path}: all numbers must be finite")
+    if not (np.abs(table) <= _LARGEST).all():
+        raise FormatError(f"{path}: all numbers must be at most {_LARGEST:g}")
     numbers = table[:, :2]
-    if (numbers != np.rint(numbers)).any() or np.abs(numbers).max() > 2**53:
+    if (numbers != np.rint(numbers)).any():
         raise FormatError(f"{path}: persons and frames must be whole numbers")
     order = np.lexsort((table[:, 1], table[:, 0]))
     table = table[order]
@@ -56,9 +58,10 @@ def read_trajectories(path: str | os.PathLike[str]) -> Trajectories:
     return Trajectories(Path(path).name, float(rate), person, frames - frames.min(), table[:, 2], table[:, 3])
 
 
-def _from_sqlite(path: str | os.PathLike[str]) -> tuple[float, NDArray[np.float64]]:
+def _from_sqlite(content: bytes, path: object) -> tuple[float, NDArray[np.float64]]:
     try:
-        with closing(sqlite3.connect(f"file:{Path(path).absolute().as_posix()}?mode=ro", uri=True)) as connection:
+        with closing(sqlite3.connect(":memory:")) as connection:
+            connection.deserialize(content)
             (rate,) = connection.execute("SELECT value FROM metadata WHERE key = 'fps'").fetchone()
             (rows,) = connection.execute("SELECT count(*) FROM trajectory_data").fetchone()
             if rows > MAX_ROWS:
@@ -69,8 +72,8 @@ def _from_sqlite(path: str | os.PathLike[str]) -> tuple[float, NDArray[np.float6
         raise FormatError(f"{path}: is no file of trajectories of JuPedSim: {str(error)[:100]}") from None
 
 
-def _from_text(path: str | os.PathLike[str]) -> tuple[float, NDArray[np.float64]]:
-    text = read_text(path, 2**30).decode()
+def _from_text(checked: Text, path: object) -> tuple[float, NDArray[np.float64]]:
+    text = checked.decode()
     told = re.search(r"^#.*framerate:?\s*([0-9.eE+]+)", text, re.MULTILINE)
     if told is None:
         raise FormatError(f"{path}: must be an sqlite file of JuPedSim, or text with a line '# framerate: N'")
