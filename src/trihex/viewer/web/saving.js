@@ -17,6 +17,8 @@ const EXPORT_WORDS = {
   waypoints: "Waypoints in metres",
   summary: "Summary: the numbers of the plan",
   run: "Live run: all that happened, for trihex run --resume",
+  run_page: "Page of the live run: one HTML file that plays anywhere",
+  run_waypoints: "Waypoints of the live run in metres",
   run_movie: "Movie of the live run",
   run_picture: "Picture of the live run: what was seen when",
 };
