@@ -22,11 +22,11 @@ from trihex.bounds import distance_bound, make_lower_bound, slot_bound
 from trihex.errors import FormatError, TooLargeError, TrihexError, check_choice, check_type
 from trihex.fields import distance_generations, make_d_scheme
 from trihex.files import read_bytes
-from trihex.formats import FORMATS, Draft, draft_of, format_of, read_draft, read_plan, read_starts
+from trihex.formats import FORMATS, Draft, draft_of, format_of, is_run, read_draft, read_plan, read_run, read_starts
 from trihex.judging import Report, audit_plan, make_report
 from trihex.planners import PLANNERS, make_plan
 from trihex.plans import Plan
-from trihex.running import Run
+from trihex.running import Run, make_run_report
 from trihex.viewer import requests as ask
 from trihex.viewer.bundle import Bundle, decode, encode
 from trihex.viewer.call import TICK, Call, CancelledError, Send
@@ -36,6 +36,7 @@ from trihex.viewer.folder import Folder, references_of
 from trihex.viewer.live import Live
 from trihex.viewer.shelf import Shelf
 from trihex.viewer.show import show_plan
+from trihex.viewer.show_run import show_run
 
 # The automaton looks at all neighbours of all cells in every generation.
 MAX_AUTOMATON_CELLS = 2**20
@@ -74,9 +75,11 @@ class Desk:
             log.exception("a request of the page failed")
             send(encode({"kind": "error", "message": f"this is a fault of trihex: {error!r:.200}"}))
 
-    def show(self, record: Area | Scenario | Draft | Plan) -> Bundle:
+    def show(self, record: Area | Scenario | Draft | Plan | Run) -> Bundle:
         """Return what a page shows of a record, as the result of "open" does."""
-        check_type("record", record, Area, Scenario, Plan, Draft)
+        check_type("record", record, Area, Scenario, Plan, Run, Draft)
+        if isinstance(record, Run):
+            return show_run(make_run_report(record))
         if isinstance(record, Plan):
             return self._shown(record, {}, Call({}, lambda _: None, lambda: False))
         if isinstance(record, Scenario):
@@ -123,6 +126,8 @@ class Desk:
         form = FORMATS[format_of(read_bytes(path), path)]
         seconds: dict[str, float] = {}
         begin = perf_counter()
+        if is_run(path):
+            return self.show(read_run(path))
         if form.holds == "plan":
             plan = read_plan(path, None if form.brings_scenario else call.scenario(request))
             seconds["read"] = perf_counter() - begin
