@@ -95,6 +95,24 @@ def test_a_run_plays_in_the_world_of_each_step(browser, tmp_path):
     assert shown.faults == []
 
 
+def test_the_viewer_opens_a_run(open_viewer, tmp_path):
+    """As a file of its folder or as what it is started with; planning there makes a plan of what the run began with."""
+    run = a_run_with_changes()
+    th.write_run(run, tmp_path / "run.npz")
+    shown = open_viewer(run)
+    shown.wait("app.runs[0]")
+    assert shown.table()["Total time"] == [f"{run.total_time:,}".replace(",", " ")]
+    shown.press("Save…")
+    dialog = shown.page.get_by_role("dialog")
+    assert dialog.get_by_label("What to save").locator("option[value=plan]").is_disabled()
+    shown.page.keyboard.press("Escape")
+    shown.press("Open…")
+    shown.press("run.npz")
+    shown.wait("app.runs[0] && !app.job")
+    assert shown.ask("app.runs[0].playback.worlds.docs.length") == 5
+    assert shown.faults == []
+
+
 def test_two_plans_are_shared_side_by_side(open_viewer, browser, tmp_path, plan):
     """The viewer saves both; the file plays them on one clock."""
     shown = open_viewer(plan)
