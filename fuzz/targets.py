@@ -150,6 +150,8 @@ TARGETS: dict[str, Callable[[Path], None]] = {
     "style.yaml": read_place,
     "parts.geojson": read_place,
     "srid.wkt": read_place,
+    "plan.dxf": read_place,
+    "binary.dxf": read_place,
     "place.toml": read_any,
     "world.toml": read_any,
     "yard.toml": read_any,

@@ -55,6 +55,7 @@ CASES = {
     "delay in words": ("th.Trial(scenario, delay='10%')", "delay must be a number from 0 to below 1, not '10%'"),
     "events in words": ("th.Trial(scenario, events='events.csv')", "events must be a list of events, such as those of read_events, not 'events.csv'"),
     "event that is none": ("th.Trial(scenario, events=[(5, 'barrier')])", "events[0] must be an Event, not tuple"),
+    "optimum where it is no flow": ("th.make_plan(th.Scenario(area, (5, 3), following='forbid'), 'optimal')", "planner 'optimal' needs following='allow', not 'forbid', which is no pure flow; the lower bound in the report of another planner tells how far its plan is from the optimum at most"),
     "memory in words": ("th.make_plan(scenario, 'optimal', memory_limit='1GB')", "memory_limit, in bytes, must be a number from 0, not '1GB'"),
     # steps and robots
     "one late robot": ("th.Execution(scenario).step(late=1)", "late must be a list of the numbers of robots, not int: put it into brackets, [late]"),

@@ -4,6 +4,7 @@ from .areas import (
     Frame as Frame,
     Scenario as Scenario,
     Tessellation as Tessellation,
+    Zone as Zone,
     make_caves_area as make_caves_area,
     make_maze_area as make_maze_area,
     make_random_area as make_random_area,

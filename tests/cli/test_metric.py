@@ -147,14 +147,14 @@ def test_starts_of_scen_become_csv(tmp_path, monkeypatch):
 
 
 def test_compare_covers_a_place_anew_by_each_tessellation_that_fits(house):
-    size = ["--cell-size", "0.5", "--robot-radius", "0.1"]
+    size = ["--cell-size", "0.5", "--robot-radius", "0.13"]
     done = run("compare", "house.yaml", *size, *PLACES, "--robots", 10, "--planners", "greedy")
     assert done.exit_code == 0, done.output
     assert [line.split()[0] for line in done.stdout.splitlines()[2:]] == ["hexagonal", "square"]
-    assert done.stderr.startswith("trihex: triangular is left out: cell_size must be at least 0.6111 metres")
+    assert done.stderr.startswith("trihex: triangular is left out: cell_size must be at least 0.7944 metres (0.52 ")
     done = run("compare", "house.yaml", *size, *PLACES, "--robots", 10, "--tessellations", "square,triangular")
     assert (done.exit_code, done.stdout) == (2, "")
-    assert "at least 0.6111 metres on triangular cells" in done.stderr
+    assert "on triangular cells" in done.stderr
     done = run("compare", "house.yaml", "--cell-size", 0.2, "--robot-radius", 0.1, *PLACES, "--robots", 10)
     assert done.exit_code == 2 and done.stderr.count("is left out") == 3
     assert "no tessellation fits" in done.stderr

@@ -23,12 +23,26 @@ PATH = click.Path(path_type=Path)
 
 # What `rule_options` adds, and what `formats.options.AreaOptions` takes besides the tessellation.
 RULES = ("waiting_cost", "crossing", "corners", "destination_capacity", "clock", "following", "destination")
-_PLACE = ("cell_size", "robot_radius", "clearance", "unknown", "threshold", "invert", "resolution", "align")
+_PLACE = (
+    *("cell_size", "robot_radius", "clearance", "unknown", "threshold", "invert", "resolution", "align"),
+    *("walls", "exits", "rooms", "unit", "wall_thickness"),
+)
 
 
 def area_options(command: Command) -> Command:
     """Add what tells how the area of a file is read."""
     for option in (
+        click.option("--wall-thickness", type=Metres(), help="DXF: of lines that are walls, in metres. [default: 0]"),
+        click.option(
+            "--unit",
+            type=Name("trihex.formats.areas.cad", "UNITS"),
+            help="DXF: of lengths. [default: that of the file]",
+        ),
+        click.option("--rooms", metavar="LAYERS", help="DXF: layers of what is free. [default: *room*]"),
+        click.option("--exits", metavar="LAYERS", help="DXF: layers of exits. [default: *exit*]"),
+        click.option(
+            "--walls", metavar="LAYERS", help="DXF: layers of walls, as A-WALL*,COLUMNS. [default: *wall*, or all]"
+        ),
         click.option("--resolution", type=Metres(), help="Images: metres for each pixel."),
         click.option("--invert", is_flag=True, default=None, help="Images: dark pixels are free."),
         click.option(
@@ -168,6 +182,9 @@ def read_described(path: Path, options: dict[str, Any]) -> Draft:
     """Return the draft in the file at `path`, changed by what the options say."""
     from trihex.formats import read_draft
 
+    place = {name: options[name] for name in _PLACE}
+    if place["robot_radius"] and not place["cell_size"]:  # the least cells depend on the rule
+        place["following"] = options.get("following")
     with bar("covering", "rows") as progress:
         draft = read_draft(
             path,
@@ -175,8 +192,10 @@ def read_described(path: Path, options: dict[str, Any]) -> Draft:
             neighbourhood=options["neighbourhood"],
             costs=options["costs"],
             progress=progress,
-            **{name: options[name] for name in _PLACE},
+            **place,
         )
+    for note in draft.notes:
+        click.echo(f"trihex: {path}: {note}", err=True)
     return _changed(draft, options)
 
 

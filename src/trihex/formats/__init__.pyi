@@ -1,4 +1,8 @@
+from .areas.dxf import (
+    read_layers as read_layers,
+)
 from .areas.options import (
+    AreaOptions as AreaOptions,
     NoRoomError as NoRoomError,
 )
 from .draft import (

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,6 +33,12 @@ class Walk:
         self._cursor = None if plan.has_steps else np.stack([plan.first_action[:-1], 0 * plan.first_action[:-1]])
 
     @cached_property
+    def _follow(self) -> Any:
+        from trihex.plans.kernels.replay import follow
+
+        return follow
+
+    @cached_property
     def site(self) -> NDArray[np.int32]:
         """The site whose centre each robot was at last; whoever has no further actions stays, shape (robots,)."""
         return self.plan.scenario.area.layout.cell_to_site(self.plan.scenario.robots)
@@ -42,9 +49,7 @@ class Walk:
         for first in range(0, self.site.size if step > self.step else 0, some):
             last = min(self.site.size, first + some)
             if self._cursor is None:
-                from trihex.plans.kernels.replay import follow
-
-                follow(actions, first, last, self.step, step, self.site)
+                self._follow(actions, first, last, self.step, step, self.site)
             else:
                 from trihex.plans.kernels.ticks import follow_ticks
 

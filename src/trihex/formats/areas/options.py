@@ -7,6 +7,7 @@ from numbers import Real
 
 from trihex.areas import (
     ALIGNS,
+    FOLLOWINGS,
     Area,
     Covering,
     Ground,
@@ -54,6 +55,15 @@ class AreaOptions(Record):
     align : {"corner", "best", "shift"}
         Where the grid begins and how it is turned: at the north-west corner along its sides; so that the largest
         connected part has most cells; or the best of a few shifts.
+    walls, exits, rooms : str, optional
+        Names of layers of a DXF file, parted by commas; ``*`` stands for any letters. Default: ``*wall*``, or all where
+        no layer is called so, ``*exit*`` and ``*room*``.
+    unit : str, optional
+        What lengths in a DXF file are measured in: m, cm, mm, km, in, ft or yd. Default: as the file says.
+    wall_thickness : float
+        Of the lines of a DXF file that are walls, in metres.
+    following : {"allow", "forbid"}
+        The rule that the least cell size for robots of the radius depends on.
 
     Raises
     ------
@@ -70,14 +80,23 @@ class AreaOptions(Record):
     invert: bool = False
     resolution: float | None = None
     align: str = "corner"
+    walls: str | None = None
+    exits: str | None = None
+    rooms: str | None = None
+    unit: str | None = None
+    wall_thickness: float = 0.0
+    following: str = "allow"
 
     def __post_init__(self) -> None:
         self._set("tessellation", tessellation_from(self.tessellation))
         check_choice("unknown", self.unknown, UNKNOWNS, FormatError)
+        check_choice("following", self.following, FOLLOWINGS, FormatError)
         check_choice("align", self.align, (*ALIGNS, "shift"), FormatError)
         if not isinstance(self.threshold, Real) or not 0 <= self.threshold <= 1:
             raise FormatError(f"threshold must be between 0 and 1, not {self.threshold!r:.80}")
         check_number("clearance", self.clearance, 0, 1e9, FormatError)
+        if not isinstance(self.wall_thickness, Real) or not 0 <= self.wall_thickness <= 1e3:
+            raise FormatError(f"wall_thickness must be between 0 and 1000 metres, not {self.wall_thickness!r:.80}")
         if self.resolution is not None:
             if not isinstance(self.resolution, Real) or not 1e-9 <= self.resolution <= 1e9:
                 raise FormatError(f"resolution must be between 1e-9 and 1e9 metres, not {self.resolution!r:.80}")
@@ -87,7 +106,7 @@ class AreaOptions(Record):
         """The cell size, or the least for robots of the radius; None where there is neither."""
         if self.cell_size is not None or not isinstance(self.robot_radius, Real) or not self.robot_radius > 0:
             return self.cell_size
-        return round_up_size(least_cell_size(self.tessellation, float(self.reach)))
+        return round_up_size(least_cell_size(self.tessellation, float(self.reach), self.following))
 
     def area_of(self, ground: Ground, covering: Covering, name: str, progress: Progress | None) -> Area:
         """Return the area that covers a ground as the options say."""

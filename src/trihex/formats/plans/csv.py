@@ -116,8 +116,8 @@ def plan_of_table(table: NDArray[np.int64], scenario: Scenario, path: object) ->
         table, line = table[:, order], line[order]
     robot, step, x, y, word, time = table
     start, wait = len(words) - 3, len(words) - 2
-    actions, said = _actions(tessellation, x, y, word, wait)
-    is_start = _check_steps(robot, step, said, scenario, line, path)
+    actions, lasts = _actions(tessellation, x, y, word, wait)
+    is_start = _check_steps(robot, step, lasts, tessellation, line, path)
     _check_rows(
         is_start != (word == start), "action must be 'start' at step 0, and only there", words, word, line, path
     )
@@ -159,8 +159,8 @@ def _order(table: NDArray[np.int64]) -> NDArray[np.int64] | None:
 def _check_steps(
     robot: NDArray[np.int64],
     step: NDArray[np.int64],
-    said: NDArray[np.int64],
-    scenario: Scenario,
+    lasts: NDArray[np.int64],
+    tessellation: Tessellation,
     line: NDArray[np.int64],
     path: object,
 ) -> NDArray[np.bool_]:
@@ -168,7 +168,6 @@ def _check_steps(
     before_robot, before_step = np.append(-1, robot[:-1]), np.append(-1, step[:-1])
     begins = np.asarray(robot != before_robot)
     begins[:1] = True
-    lasts = _by_action(scenario.duration_of_direction, 1)[said]
     wrong = np.where(begins, (robot != before_robot + 1) | (step != 0), step != before_step + lasts)
     if not wrong.any():
         return begins
@@ -183,13 +182,13 @@ def _check_steps(
         raise FormatError(f"{where}: robot {robot[row]} must begin with step 0, not {step[row]}")
     if step[row] == before_step[row]:
         raise FormatError(f"{where}: robot {robot[row]} has step {step[row]} twice")
-    if scenario.clock == "costs":
+    lasts = np.broadcast_to(lasts, step.shape)
+    if tessellation.clock == "costs":
         raise FormatError(
             f"{where}: step must rise by {lasts[row]}, as long as the action lasts, not by "
             f"{step[row] - before_step[row]}; the plan was made with another clock or other costs"
         )
-    ticks = replace(scenario.area.tessellation, clock="costs").duration_of_direction
-    is_in_ticks = said[row] < ticks.size and ticks[said[row]] == step[row] - before_step[row]
+    is_in_ticks = step[row] - before_step[row] in replace(tessellation, clock="costs").duration_of_direction
     raise FormatError(
         f"{where}: robot {robot[row]} lacks step {before_step[row] + 1}; here is step {step[row]}"
         f"{', as by clock costs' if is_in_ticks else ''}"
@@ -199,7 +198,7 @@ def _check_steps(
 def _actions(
     tessellation: Tessellation, x: NDArray[np.int64], y: NDArray[np.int64], word: NDArray[np.int64], wait: int
 ) -> tuple[NDArray[np.uint8], NDArray[np.int64]]:
-    """Return the action of each row, `JUMP` if word and cells disagree, and the action that the word says."""
+    """Return the action of each row, `JUMP` if word and cells disagree, and how long lasts what the word says."""
     from_x, from_y = np.append(x[:1], x[:-1]), np.append(y[:1], y[:-1])
     orientation = tessellation.orientation_of_cell(from_x, from_y)
     # What a name means depends on the cell that is left.
@@ -210,12 +209,18 @@ def _actions(
     )
     direction_of_word[:, wait] = WAIT
     actions = direction_of_word[orientation, word]
-    # A name of the other orientation means no move here, but tells how long it would last.
-    said = np.where((actions == JUMP) & (word < wait - 1), word % tessellation.direction_count, actions)
+    lasts = np.ones((), dtype=np.int64)
+    if (tessellation.duration_of_direction != 1).any():
+        # A name of the other orientation means no move here, but tells how long it would last.
+        names = np.arange(wait - 1) % tessellation.direction_count
+        said = np.where(direction_of_word[:, : wait - 1] == JUMP, names, direction_of_word[:, : wait - 1])
+        of_word = np.ones(direction_of_word.shape, dtype=np.int64)
+        of_word[:, : wait - 1] = tessellation.duration_of_direction[said]
+        lasts = of_word[orientation, word]
     steps = np.concatenate([tessellation.step_of_direction, np.zeros((2, WAIT, 2), dtype=np.int32)], axis=1)
     step = steps[orientation, actions]
     actions[(step[:, 0] != x - from_x) | (step[:, 1] != y - from_y)] = JUMP
-    return actions, said
+    return actions, lasts
 
 
 def _by_action(of_direction: NDArray[np.int32], of_others: int) -> NDArray[np.int64]:

@@ -42,6 +42,11 @@ class AreaTable(Table):
     invert: bool | None = None
     resolution: Annotated[Number, Field(gt=0)] | None = None
     align: Annotated[str, choice("it", ALIGNS)] | None = None
+    walls: str | None = None
+    exits: str | None = None
+    rooms: str | None = None
+    unit: str | None = None
+    wall_thickness: Annotated[Number, Field(ge=0)] | None = None
 
 
 class RulesTable(Table):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -111,7 +111,7 @@ def _outputs(table: ScenarioTable, path: Path) -> dict[str, Any]:
 
 def _area_draft(table: AreaTable, path: Path, read_area_draft: Callable[[Path, AreaOptions], Draft]) -> Draft:
     tessellation = Tessellation(table.tessellation, table.neighbourhood, table.costs)
-    names = ("cell_size", "robot_radius", "clearance", "unknown", "threshold", "invert", "resolution", "align")
+    names = (own.name for own in fields(AreaOptions) if own.name not in ("tessellation", "following"))
     options = {name: value for name in names if (value := getattr(table, name)) is not None}
     if table.path is not None:
         draft = read_area_draft(path.parent / table.path, AreaOptions(tessellation, **options))

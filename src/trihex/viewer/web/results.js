@@ -3,7 +3,7 @@
 import { h, number, percent, secondsOf, title } from "./words.js";
 import { check, note, section } from "./controls.js";
 import { Chart } from "./chart.js";
-import { OF_LIVE, OF_PLAN, UNITS } from "./sentences.js";
+import { OF_BOUNDS, OF_LIVE, OF_PLAN, UNITS } from "./sentences.js";
 
 const SO_FAR = "The time that robots have used until this step, and the least that the total can still become: that " +
   "time, and the shortest way of each robot from where it is.";
@@ -21,12 +21,14 @@ function unitsOf({ summary: { waiting_cost: wait }, edge_cost: edge }) {
   return `${UNITS} ${number(edge)}, a wait ${number(wait)}. Point at a number to read what it means.`;
 }
 
+const BOUND = "Lower bound";
+
 // What a row is called, of what it tells, and what it says of the summary of a plan or a run.
 const ROWS = [
   ["Total time", "total_time", (summary) => number(summary.total_time)],
   ["With full knowledge, no events", "reference_time", (summary) => number(summary.reference_time)],
   ["Price", "price", ({ price }) => (price === null ? "–" : percent(price))],
-  ["Lower bound", "lower_bound", (summary) => `${number(summary.lower_bound)} (${summary.lower_bound_name})`],
+  [BOUND, "lower_bound", (summary) => `${number(summary.lower_bound)} (${summary.lower_bound_name})`],
   ["Gap to the optimum", "total_distance", gapOf],
   ["Steps", "steps", (summary) => number(summary.steps)],
   ["Last arrival", "last_arrival_seconds", (summary) => secondsOf(summary.last_arrival_seconds)],
@@ -94,12 +96,14 @@ export class Results {
     const heads = runs.map((run, i) => h("th", { scope: "col", class: `run${i}` }, name(run)));
     const rows = ROWS.filter(([, key]) => runs.some(({ summary }) => has(summary, key)));
     const lines = rows.map(([label, key, of]) => h("tr", { title: OF_PLAN[label] }, h("th", { scope: "row" }, label),
-      runs.map(({ summary }) => h("td", {}, has(summary, key) ? of(summary) : "–"))));
+      runs.map(({ summary }) => h("td", { title: label === BOUND && OF_BOUNDS[summary.lower_bound_name] },
+        has(summary, key) ? of(summary) : "–"))));
     const conflicts = runs.flatMap((run) => run.conflicts).slice(0, 5).map(({ step, text }) => h("li", {},
       h("button", { type: "button", class: "link", onclick: () => this.app.clock.seek(step - 1) }, text)));
     this.table.replaceChildren(...[
       h("table", {}, h("thead", {}, h("tr", {}, h("td"), heads)), h("tbody", {}, lines)),
-      note(unitsOf(runs[0])), this.#verdict(runs), conflicts.length ? h("ul", { class: "conflicts" }, conflicts) : null,
+      note(unitsOf(runs[0])), this.verdict ? h("p", { class: "verdict" }, this.verdict) : null,
+      conflicts.length ? h("ul", { class: "conflicts" }, conflicts) : null,
     ].filter(Boolean));
     this.chart.draw(runs.map(({ playback }) => playback.curves));
   }
@@ -113,15 +117,15 @@ export class Results {
   }
 
   // One sentence on what two plans differ in.
-  #verdict(runs) {
-    if (runs.length < 2) return null;
+  get verdict() {
+    const runs = this.#runs;
+    if (runs.length < 2) return "";
     const [one, two] = runs.map((run) => run.summary), isSame = one.tessellation === two.tessellation;
     const share = two.total_time ? one.total_time / two.total_time - 1 : 0;
     const nameIn = ({ planner, tessellation }) => `${planner}${isSame ? "" : ` on ${tessellation} cells`}`;
-    const first = title(nameIn(one)), words = Math.abs(share) < 5e-5
-      ? `${first} and ${nameIn(two)} take the same total time.`
-      : `${first} takes ${percent(Math.abs(share))} ${share > 0 ? "more" : "less"} time than ${nameIn(two)}.`;
-    return h("p", { class: "verdict" }, words);
+    const first = title(nameIn(one));
+    if (Math.abs(share) < 5e-5) return `${first} and ${nameIn(two)} take the same total time.`;
+    return `${first} takes ${percent(Math.abs(share))} ${share > 0 ? "more" : "less"} time than ${nameIn(two)}.`;
   }
 
   #showLive(live) {

@@ -18,6 +18,14 @@ export const OF_PLAN = {
   "Planned in": "Seconds that the planner took on this computer.",
 };
 
+// How a lower bound is known, by its name.
+export const OF_BOUNDS = {
+  distance: "distance: as if nobody were in the way of anybody",
+  slot: "slot: so many robots at most enter the destinations in a step",
+  cut: "cut: so many robots at most pass the narrow places in a step",
+  optimum: "optimum: a plan that takes no more has been found",
+};
+
 export const OF_LIVE = {
   "Step": "Time steps since the run began. In each step every robot makes one move or waits.",
   "Arrived": "Robots that have reached a destination, of all that are or were here.",

@@ -181,8 +181,16 @@ export class Stage {
     const area = `${title(tessellation)} area of ${doc.width} by ${doc.height} cells, ${things}`;
     const use = canEdit && !i ? ", Enter uses the tool" : "";
     pane.canvas.setAttribute("aria-label", `${area}. Arrow keys move the cursor${use}.`);
-    this.captions[i].textContent = run && runs[1] ? `${run.summary.planner} · ${tessellation} · ` +
-      `total time ${number(run.summary.total_time)} · ${gapWords(run.summary)}` : "";
+    this.#caption(i, run && runs[1] ? run.summary : null);
+  }
+
+  // What stands above a plan that is compared.
+  #caption(i, summary) {
+    const { runs } = this.app, isSame = runs[0]?.summary.tessellation === runs[1]?.summary.tessellation;
+    const words = summary ? [summary.planner || "plan", isSame ? "" : summary.tessellation,
+      `total time ${number(summary.total_time)}`, gapWords(summary)].filter(Boolean).join(" · ") : "";
+    this.captions[i].textContent = words.replace(/(\d) (?=\d)/g, "$1\u00a0"); // a number is not parted
+    this.captions[i].setAttribute("title", words);
   }
 
   #still(doc, distance) {
