@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import zipfile
 from collections.abc import Callable
 from math import isnan
 from typing import Any
@@ -93,6 +94,15 @@ def write_run(run: Run, path: str | os.PathLike[str], *, progress: Callable[[int
         path,
         progress,
     )
+
+
+def is_run(path: str | os.PathLike[str]) -> bool:
+    """Tell whether a file looks like one that `write_run` made."""
+    try:
+        with zipfile.ZipFile(path) as archive:
+            return "run_actions.npy" in archive.namelist()
+    except (zipfile.BadZipFile, OSError, ValueError, NotImplementedError):
+        return False
 
 
 def read_run(path: str | os.PathLike[str]) -> Run:
