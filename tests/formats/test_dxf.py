@@ -369,3 +369,18 @@ def test_a_file_cut_short_is_refused_in_one_line(tmp_path):
         (tmp_path / "a.dxf").write_text(text[: int(part * len(text))])
         with suppress(FormatError):
             read_area(tmp_path / "a.dxf", **OPTIONS)
+
+
+def test_text_nowhere_and_exits_without_end_do_no_harm(tmp_path):
+    """Found by fuzzing."""
+    document = as_lines()
+    space = document.modelspace()
+    space.add_text("far", dxfattribs={"layer": "EXIT", "insert": (1e300, 0)})
+    space.add_line((12000, 3000), (12000, -9e11), dxfattribs={"layer": "EXIT"})
+    with suppress(FormatError):
+        read_area(saved(document, tmp_path / "a.dxf"), **OPTIONS)
+    for x in ("nan", "1e300"):
+        text = (tmp_path / "a.dxf").read_text().replace("1e+300", x)
+        (tmp_path / "b.dxf").write_text(text)
+        with suppress(FormatError):
+            read_area(tmp_path / "b.dxf", **OPTIONS)

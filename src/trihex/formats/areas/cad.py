@@ -162,7 +162,8 @@ def _take(entity: Any, layer: str, scale: float, drawing: Drawing) -> int:
     if kind in _WORDS:
         text = entity.plain_text() if kind == "MTEXT" else entity.dxf.text
         x, y = entity.dxf.insert.x * scale, entity.dxf.insert.y * scale
-        drawing.words[layer].append(Words(" ".join(text.split()), x, y))
+        if abs(x) <= _MOST_METRES and abs(y) <= _MOST_METRES:  # not so for nan
+            drawing.words[layer].append(Words(" ".join(text.split()), x, y))
         return 1
     if kind not in _CURVES | _SOLIDS:
         drawing.unknown[layer, kind] += 1
