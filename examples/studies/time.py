@@ -86,7 +86,7 @@ def mean(rows: Sequence[Row], cells: tuple[str, str, str], value: Callable[[Row]
 
 def order(last: dict[tuple[str, str, str], float]) -> str:
     """Return kinds of cells with their seconds, the soonest first."""
-    return ", ".join(f"{cells[2]} {last[cells]:.0f}" for cells in sorted(last, key=lambda cells: last[cells]))
+    return ", ".join(f"{cells[2]} ({last[cells]:.0f} s)" for cells in sorted(last, key=lambda cells: last[cells]))
 
 
 def summary(rows: Sequence[Row], radius: Sequence[Row]) -> str:
@@ -167,8 +167,10 @@ The same with 20 robots, which hardly meet:
 
 {table_of_rules(rows, seconds, 1, robots=20)}
 
-- Soonest first where others may follow, by steps: {order(last["steps", "allow"])}; by costs: {order(last["costs", "allow"])}.
-- Where nobody follows, by steps: {order(last["steps", "forbid"])}; by costs: {order(last["costs", "forbid"])}.
+- Soonest first where others may follow, by steps: {order(last["steps", "allow"])};
+  by costs: {order(last["costs", "allow"])}.
+- Where nobody follows, by steps: {order(last["steps", "forbid"])};
+  by costs: {order(last["costs", "forbid"])}.
 - Part of what a clock brings where others may follow comes from the exits: one that takes one robot at a time is owned for the second
   half of a move by `costs`, hence by two robots in the time of a move; by `steps` one enters in each step. Where nobody follows
   it is owned for the whole move by both clocks: those columns compare like with like.
