@@ -61,8 +61,8 @@ def audit_run(run: Run, limit: int = 100) -> RunAudit:
     """Judge a run: in each step the rules of the scenario in the world of that step, at the end who was left behind.
 
     Kinds of conflict are those of `trihex.judging.audit_plan`, and "late": a robot moved though an event made it late;
-    "event": an event put a barrier or a robot where one stood; "end": what is said of a robot is not so; "time": a robot
-    acts while it is under way, or is said to be under way when it is not.
+    "event": an event put a barrier or a robot where one stood; "end": what is said of a robot is not so; "time":
+    a robot acts while it is under way, or is said to be under way when it is not.
 
     Examples
     --------

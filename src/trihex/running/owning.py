@@ -1,8 +1,9 @@
 """Owning: a run judged by who owns what, where moves last or following is forbidden.
 
 Tick t is half tick 2t. All is found from the actions and from the destinations of each step, as the model says it: a
-move from a to b that begins at tick t and lasts d owns, where following is allowed, a before half tick 2t + d and b from
-then on; where it is forbidden both from 2t on, a before 2t + 2d; the lattice vertex that it passes from 2t before 2t + 2d.
+move from a to b that begins at tick t and lasts d owns, where following is allowed, a before half tick 2t + d and b
+from then on; where it is forbidden both from 2t on, a before 2t + 2d; the lattice vertex that it passes from 2t on,
+before 2t + 2d.
 """
 
 from __future__ import annotations
