@@ -6,10 +6,22 @@ import json
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+import ezdxf
 import numpy as np
 from PIL import Image
 
-from trihex import Area, Frame, Scenario, Tessellation, Trial, write_area, write_plan, write_run, write_scenario
+from trihex import (
+    Area,
+    Frame,
+    Scenario,
+    Tessellation,
+    Trial,
+    write_area,
+    write_plan,
+    write_run,
+    write_scenario,
+    write_waypoints,
+)
 from trihex.formats import draft_of
 from trihex.plans import plan_from_lists
 from trihex.running import Event
@@ -38,7 +50,7 @@ GEOJSON = {
         {"type": "Feature", "properties": {"kind": "obstacle"}, "geometry": {"type": "Point", "coordinates": [3, 2]}},
         {
             "type": "Feature",
-            "properties": {"kind": "destination"},
+            "properties": {"kind": "destination", "name": "west, gate"},
             "geometry": {"type": "LineString", "coordinates": [[1, 1], [1, 3]]},
         },
         {
@@ -100,6 +112,24 @@ def house() -> Image.Image:
     return Image.fromarray(pixels)
 
 
+def drawing(form: str) -> bytes:
+    """Return a floor plan as CAD draws it: a nested block, an arc, a spline, a hatch, text and an exit."""
+    document = ezdxf.new("R2000", units=4)
+    space, inner, outer = document.modelspace(), document.blocks.new("INNER"), document.blocks.new("OUTER")
+    inner.add_lwpolyline([(6000, 3000), (6000, 0), (0, 0), (0, 4000), (6000, 4000), (6000, 3600)])
+    outer.add_blockref("INNER", (6000, 0), dxfattribs={"xscale": -1})
+    outer.add_arc((2000, 2000), 400, 0, 270)
+    space.add_blockref("OUTER", (0, 0), dxfattribs={"layer": "WALLS"})
+    space.add_spline([(3000, 0), (3200, 700), (3000, 1500)], dxfattribs={"layer": "WALLS"})
+    space.add_hatch(dxfattribs={"layer": "WALLS"}).paths.add_polyline_path([(4000, 900), (4400, 900), (4400, 1400)])
+    space.add_line((0, 3000), (0, 3600), dxfattribs={"layer": "EXIT"})
+    space.add_text("west gate", dxfattribs={"layer": "EXIT", "insert": (-500, 3300)})
+    # Most of what ezdxf writes is tables that no drawing needs.
+    with TemporaryDirectory() as name:
+        document.saveas(Path(name) / "plan.dxf", fmt=form)
+        return (Path(name) / "plan.dxf").read_bytes()
+
+
 def make_seeds() -> dict[str, bytes]:
     """Return the content of a good file by its name."""
     tessellation = Tessellation("square")
@@ -122,9 +152,13 @@ def make_seeds() -> dict[str, bytes]:
         "walls.txt": b"#######\n#a.B.D#\n#.#b..#\n#######\n",
         "house.pfm": b"Pf\n80 60\n-1.0\n" + (np.asarray(house()) / 255).astype("<f4")[::-1].tobytes(),
     }
-    seeds["events.csv"] = b"step,event,x,y\n2,barrier,3,2\n3,join,1,2\n4,clear,3,2\n"
-    seeds["events.toml"] = b'[[event]]\nstep = 2\nevent = "barrier"\ncell = [3, 2]\n'
+    seeds["events.csv"] = (
+        b"step,event,x,y,zone,metres\n2,barrier,3,2,,\n3,join,1,2,,\n4,close,,,north,\n5,barrier,,,,1 1; 2 1; 2 2\n"
+    )
+    seeds["events.toml"] = b'[[event]]\nstep = 2\nevent = "barrier"\nmetres = [[1, 1], [2, 1.5]]\n'
+    seeds["crowd.txt"] = b"# framerate: 2\n0 0 0.2 -0.2\n0 1 0.7 -0.2\n4 0 1.2 -1.2\n4 1 1.2 -1.7\n"
     seeds["study.toml"] = STUDY.encode()
+    seeds["plan.dxf"], seeds["binary.dxf"] = drawing("asc"), drawing("bin")
     document, arrays = document_of(draft_of(scenario))
     seeds["request.bundle"] = encode({"op": "plan", "planner": "greedy", "options": {}, "document": document}, arrays)
     with TemporaryDirectory() as name:
@@ -133,6 +167,7 @@ def make_seeds() -> dict[str, bytes]:
         write_area(plain, folder / "yard.map")
         for suffix in ("csv", "npz", "parquet"):
             write_plan(plan, folder / f"plan.{suffix}")
+        write_waypoints(plan, folder / "crowd.sqlite")
         write_run(Trial(scenario, events=EVENTS).run(), folder / "run.npz")
         write_scenario(scenario, folder / "yard.toml")
         for suffix in ("pgm", "png", "bmp", "gif", "jpeg"):

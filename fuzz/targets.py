@@ -20,9 +20,11 @@ from trihex import (
     Scenario,
     TrihexError,
     audit_plan,
+    make_score,
     read_plan,
     read_run,
     read_starts,
+    read_trajectories,
     write_area,
     write_plan,
     write_run,
@@ -89,6 +91,13 @@ def read_a_run(path: Path) -> None:
         copy.unlink()
 
 
+def read_a_crowd(path: Path) -> None:
+    """Read where persons walked, and score them in the yard if they are there."""
+    crowd = read_trajectories(path)
+    if crowd.person.size < _MOST_CELLS:
+        make_score(crowd, Scenario(_YARD, [(7, 0)]))
+
+
 def read_a_study(path: Path) -> None:
     """Read what a study shall run."""
     read_study(path)
@@ -141,6 +150,8 @@ TARGETS: dict[str, Callable[[Path], None]] = {
     "style.yaml": read_place,
     "parts.geojson": read_place,
     "srid.wkt": read_place,
+    "plan.dxf": read_place,
+    "binary.dxf": read_place,
     "place.toml": read_any,
     "world.toml": read_any,
     "yard.toml": read_any,
@@ -160,6 +171,8 @@ TARGETS: dict[str, Callable[[Path], None]] = {
     "events.csv": read_some_events,
     "events.toml": read_some_events,
     "run.npz": read_a_run,
+    "crowd.sqlite": read_a_crowd,
+    "crowd.txt": read_a_crowd,
     "study.toml": read_a_study,
 }
 

@@ -37,15 +37,15 @@ CASES = {
     "report of a scenario": ("th.make_report(scenario)", "plan must be a Plan, not Scenario: make_plan(scenario) makes one"),
     "audit of a report": ("th.audit_plan(report)", "plan must be a Plan, not Report: report.plan is one"),
     "audit of a file": ("th.audit_plan('plan.npz')", "plan must be a Plan, not 'plan.npz': read_plan(path) reads one"),
-    "picture of a scenario as a plan": ("th.picture_of_plan(scenario)", "plan must be a Plan, not Scenario: make_plan(scenario) makes one"),
+    "picture of a scenario as a plan": ("th.picture_of_plan(scenario)", "plan must be a Plan or a Run, not Scenario: make_plan(scenario) makes one"),
     "drawing of an N-scheme as directions": ("th.draw_d_scheme(n_scheme)", "d_scheme must be a DScheme, not NScheme: make_d_scheme(n_scheme) makes one"),
-    "viewer of a file": ("th.open_viewer('rooms.map')", "record must be an Area or a Scenario or a Plan or a Draft, not 'rooms.map': read_area(path) reads one"),
+    "viewer of a file": ("th.open_viewer('rooms.map')", "record must be an Area or a Scenario or a Plan or a Run or a Draft, not 'rooms.map': read_area(path) reads one"),
     "scenario without an area": ("th.Scenario([[0, 1]], (0, 0))", "area must be an Area, not list"),
     "execution of a plan": ("th.Execution(plan)", "scenario must be a Scenario, not Plan: plan.scenario is one"),
     "trial for a run": ("th.audit_run(th.Trial(scenario))", "run must be a Run, not Trial: trial.run() makes one"),
     "N-scheme of another": ("th.make_plan(scenario, n_scheme=area)", "n_scheme must be an NScheme or None, not Area"),
     "one scenario for many": ("th.make_comparison(scenario, ['greedy'])", "scenarios must be a list of scenarios, not Scenario: put it into brackets, [scenario]"),
-    "file and record the wrong way round": ("th.write_plan('plan.npz', plan)", "plan must be a Plan, not 'plan.npz': read_plan(path) reads one"),
+    "file and record the wrong way round": ("th.write_plan('plan.npz', plan)", "plan must be a Plan or a Run, not 'plan.npz': read_plan(path) reads one"),
     "no path": ("th.read_area(5)", "path must be the path of a file, not int"),
     # options
     "option with a slip": ("th.read_area('house.yaml', cellsize=3)", "option of read_area must be one of tessellation, cell_size, ..., not 'cellsize'; did you mean 'cell_size'?"),
@@ -55,6 +55,7 @@ CASES = {
     "delay in words": ("th.Trial(scenario, delay='10%')", "delay must be a number from 0 to below 1, not '10%'"),
     "events in words": ("th.Trial(scenario, events='events.csv')", "events must be a list of events, such as those of read_events, not 'events.csv'"),
     "event that is none": ("th.Trial(scenario, events=[(5, 'barrier')])", "events[0] must be an Event, not tuple"),
+    "optimum where it is no flow": ("th.make_plan(th.Scenario(area, (5, 3), following='forbid'), 'optimal')", "planner 'optimal' needs following='allow', not 'forbid', which is no pure flow; the lower bound in the report of another planner tells how far its plan is from the optimum at most"),
     "memory in words": ("th.make_plan(scenario, 'optimal', memory_limit='1GB')", "memory_limit, in bytes, must be a number from 0, not '1GB'"),
     # steps and robots
     "one late robot": ("th.Execution(scenario).step(late=1)", "late must be a list of the numbers of robots, not int: put it into brackets, [late]"),
@@ -134,7 +135,8 @@ def entry_points():
 
 # Made by others than users: their makers check what they are given.
 MADE = {"Arrivals", "Audit", "Comparison", "Conflict", "DScheme", "Follower", "LastGeneration", "LowerBound", "NScheme",
-        "PassingOrder", "Picture", "Report", "Run", "RunAudit", "RunReport", "Study", "TiledField", "Occurrence"}  # fmt: skip
+        "PassingOrder", "Picture", "Report", "Run", "RunAudit", "RunReport", "Study", "TiledField", "Occurrence",
+        "EarliestArrivals", "Exits", "Score", "Trajectories"}  # fmt: skip
 
 
 @pytest.mark.parametrize(("name", "count"), [(n, c) for n, c in entry_points() if n not in MADE])

@@ -1,8 +1,9 @@
 """Clearance: the table of least distances against all pairs of moves, drawn on paper."""
 
+from fractions import Fraction
 from functools import cache
 from itertools import product
-from math import ceil, hypot
+from math import ceil, hypot, sqrt
 from pathlib import Path
 
 import numpy as np
@@ -178,11 +179,7 @@ def test_rules_that_let_robots_meet_are_refused_where_they_have_a_radius():
 
 def test_the_table_in_the_docs_is_right():
     text = (Path(__file__).parents[2] / "docs" / "metric.md").read_text()
-    rows = [
-        [cell.strip() for cell in line.strip("|").split("|")]
-        for line in text.splitlines()
-        if "| sqrt(" in line or "| 1/2 =" in line
-    ]
+    lines = text[text.index("| cells | clock, following |") :].split("\n\n")[0].splitlines()[2:]
     names = {
         "3": ("triangular", "edge"),
         "12": ("triangular", "full"),
@@ -190,12 +187,19 @@ def test_the_table_in_the_docs_is_right():
         "8": ("square", "full"),
     }
     seen = set()
-    for cells, _, formula, size, radius in rows[-5:]:
+    for line in lines:
+        cells, rule, _, formula, size, radius = (cell.strip() for cell in line.strip("|").split("|"))
         kind = ("hexagonal", "full") if cells == "hexagonal" else names[cells.split()[1]]
-        tessellation = Tessellation(*kind)
         assert kind[0] in cells
-        assert float(formula.split("= ")[1]) == pytest.approx(least_distance(tessellation), abs=5e-5)
-        assert float(size) == ceil(least_cell_size(tessellation, 0.15) * 1e4 - 1e-6) / 1e4
-        assert float(radius) == int(least_distance(tessellation) * 0.25 * 1e4 + 1e-6) / 1e4
-        seen.add(kind)
-    assert len(seen) == 5
+        clock, following = rule.split(", ")
+        for one in CLOCKS if clock == "any" else (clock,):
+            tessellation = Tessellation(*kind, "euclidean", one)
+            least = least_distance(tessellation, following=following)
+            root, value = formula.split(" = ")
+            square = Fraction(root.removeprefix("sqrt(").removesuffix(")"))
+            assert (sqrt(square) if "sqrt" in root else square) == pytest.approx(least)
+            assert float(value) == pytest.approx(least, abs=5e-5)
+            assert float(size) == ceil(least_cell_size(tessellation, 0.15, following) * 1e4 - 1e-6) / 1e4
+            assert float(radius) == int(least * 0.25 * 1e4 + 1e-6) / 1e4
+            seen.add((kind, one, following))
+    assert len(lines) == 12 and len(seen) == 5 * 2 * 2

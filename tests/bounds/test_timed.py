@@ -13,7 +13,8 @@ from tests.oracles.gaps import TIMES, crowded_scenario
 from tests.oracles.timed import plan_of_deeds, solve_timed, with_time
 from tests.sweeps import swept
 from trihex.bounds import bounds
-from trihex.bounds.rhythm import queue_up
+from trihex.bounds.demand import make_demand
+from trihex.bounds.rhythm import entry_headways, queue_up
 from trihex.planners import make_plan
 
 METRES = th.Tessellation("triangular", costs="euclidean")
@@ -48,6 +49,7 @@ def test_an_optimum_is_a_plan_that_takes_as_long(time):
         program, _, least, deeds = solve_timed(scenario)
         plan = plan_of_deeds(scenario, program, deeds)
         assert plan.total_time == least
+        assert th.audit_plan(plan).is_clean, seed
         assert np.array_equal(plan.arrived, th.make_n_scheme(scenario).distance_of_cell(scenario.robots) < 2**31 - 1)
 
 
@@ -147,3 +149,14 @@ def test_the_optimum_is_not_promised_where_there_is_no_flow(shape, rules, words)
         th.PlanError, match=f"planner 'optimal' needs .*{words}, which is no pure flow; the lower bound"
     ):
         make_plan(scenario, "optimal")
+
+
+def test_who_comes_through_a_vertex_needs_the_cell_before_it():
+    """On squares one cell leads to D through each vertex: nobody may follow into it, though the vertex is free soon."""
+    robots = [(x, y) for x in range(5) for y in range(5) if (x, y) != (2, 2)]
+    scenario = th.Scenario(th.Area("square", np.zeros((5, 5), bool)), [(2, 2)], robots, following="forbid")
+    slots = np.sort(np.concatenate([np.full(8, 1), np.full(8, 3), np.full(8, 5)]))  # 8 ways in every second step
+    demand = make_demand(th.make_n_scheme(scenario))
+    soonest = np.sort(demand.steps)
+    queue_up(soonest, entry_headways(demand.nodes))
+    assert soonest.tolist() == slots.tolist()

@@ -60,6 +60,9 @@ CASES = {
     "no robots": (None, PLAN, "there are no robots: add --robots N or --starts FILE"),
     # options
     "unknown tessellation": (None, [*ONE, "--tessellation", "hexgonal"], "--tessellation must be one of triangular, hexagonal, square, not 'hexgonal'; did you mean 'hexagonal'?"),
+    "unknown clock": (None, [*ONE, "--clock", "cost"], "--clock must be one of steps, costs, not 'cost'; did you mean 'costs'?"),
+    "unknown following": (None, [*ONE, "--following", "never"], "--following must be one of allow, forbid, not 'never'"),
+    "waiting by a clock": (None, [*ONE, "--clock", "costs", "--waiting-cost", "3"], "waiting_cost must be 1 where clock is 'costs', not 3"),
     "unknown corners": (None, [*ONE, "--corners", "nocut"], "--corners must be one of allow, no-squeeze, no-cut, not 'nocut'; did you mean 'no-cut'?"),
     "unknown planner": (None, [*ONE, "--planner", "gredy"], "--planner must be one of *, not 'gredy'; did you mean 'greedy'?"),
     "unknown option of a planner": (None, [*ONE, "--planner-option", "speed=3"], "planner 'greedy' has no options, so not 'speed'"),

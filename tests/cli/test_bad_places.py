@@ -48,8 +48,8 @@ BAD = ["plan", "bad", *SIZE, *AIM, *ROBOTS]
 CASES = {
     # sizes
     "map without cell size": (None, ["plan", "house.yaml", *AIM, *ROBOTS], "house.yaml: a ROS map (8 by 6 metres) is measured in metres: say how far apart the centres of neighbouring cells shall be, cell_size 0.5 for half a metre (--cell-size on the command line)"),
-    "cells too small for two robots": (None, ["plan", "house.yaml", "--cell-size", "0.5", "--robot-radius", "0.15", *AIM, *ROBOTS], "cell_size must be at least 0.6 metres on hexagonal cells for two robots of radius 0.15 to pass each other (they come as near as 0.5 of it), not 0.5; at that size the radius may be at most 0.125"),
-    "cells too small for triangles": (None, [*PLAN, "--tessellation", "triangular"], "cell_size must be at least 0.6111 metres on triangular cells for two robots of radius 0.1"),
+    "cells too small for two robots": (None, ["plan", "house.yaml", "--cell-size", "0.3", "--robot-radius", "0.15", *AIM, *ROBOTS], "cell_size must be at least 0.6 metres (0.3465 where following is 'forbid') on hexagonal cells for two robots of radius 0.15 to pass each other (they come as near as 0.866 of it), not 0.3; at that size the radius may be at most 0.1299"),
+    "cells too small for triangles": (None, [*PLAN, "--tessellation", "triangular", "--robot-radius", "0.13"], "cell_size must be at least 0.7944 metres (0.52 where following is 'forbid') on triangular cells for two robots of radius 0.13"),
     "cells far too small": (None, ["plan", "house.yaml", "--cell-size", "0.0001", *AIM, *ROBOTS], "cell_size must be at least 0.0016 metres for a world of 8 by 6 metres (at most 25000000 cells), not 0.0001"),
     "cell size of nothing": (None, [*PLAN, "--cell-size", "0"], "--cell-size must be a number above 0, not '0'"),
     "radius for letters": (None, ["plan", "world.txt", *SIZE, *ROBOTS], "world.txt: has one cell for each letter; robot_radius needs a place with walls in metres"),

@@ -22,8 +22,11 @@ from trihex.planners import PLANNERS
 # Two rooms and a door; the robot on the right, two on the left.
 WORLD = "D..B...\n.......\nb.aB..c\n"
 SUMMARY_KEYS = [
-    *("area", "tessellation", "neighbourhood", "costs", "corners", "crossing", "destination_capacity", "cells"),
+    *("area", "tessellation", "neighbourhood", "costs", "corners", "crossing", "destination_capacity"),
     *(
+        "clock",
+        "following",
+        "cells",
         "free_cells",
         "robots",
         "arrived",
@@ -36,7 +39,8 @@ SUMMARY_KEYS = [
         "total_time",
     ),
     *("total_distance", "total_waiting", "longest_time", "lower_bound", "lower_bound_name", "gap", "optimal"),
-    *("conflicts", "corner_moves", "squeezing_moves", "seconds"),
+    *("conflicts", "corner_moves", "squeezing_moves", "turning", "step_seconds"),
+    *("last_arrival_seconds", "mean_arrival_seconds", "seconds"),
 ]
 
 
@@ -123,6 +127,45 @@ def test_options_come_before_the_file(folder):
     told = (summary[key] for key in ("waiting_cost", "crossing", "corners", "destination_capacity", "robots", "seed"))
     assert tuple(told) == (3, "allow", "no-cut", 1, 5, 9)
     assert (summary["tessellation"], summary["neighbourhood"], summary["costs"]) == ("square", "edge", "euclidean")
+
+
+def test_the_clock_and_following_are_options_and_come_before_the_file(folder):
+    rules = ("--clock", "costs", "--following", "forbid", "--tessellation", "square")
+    summary = json.loads(plan(*rules, "--out", "p.npz", "--write-scenario", "s.toml", "--summary", "-").stdout)
+    assert (summary["clock"], summary["following"], summary["waiting_cost"]) == ("costs", "forbid", 1)
+    assert summary["steps"] == summary["longest_time"] >= 5 and summary["conflicts"] == 0
+    assert "arrive in" in run("check", "p.npz").stdout and " ticks; safe" in run("check", "p.npz").stdout
+    again = json.loads(run("plan", "s.toml", "--summary", "-").stdout)
+    assert (again["clock"], again["following"], again["total_time"]) == ("costs", "forbid", summary["total_time"])
+    steps = json.loads(run("plan", "s.toml", "--clock", "steps", "--following", "allow", "--summary", "-").stdout)
+    assert (steps["clock"], steps["following"], steps["waiting_cost"]) == ("steps", "allow", 10)
+    assert plan(*rules).stdout.splitlines()[1].startswith("greedy: 3 of 3 robots arrive, the last in tick ")
+    told = run("convert", "s.toml", "s.txt", status=2).stderr
+    assert "letters cannot carry name square, " in told and "clock costs, following forbid" in told
+
+
+def test_a_plan_in_csv_is_judged_by_the_clock_that_is_named(folder):
+    rules = ("--clock", "costs", "--tessellation", "square")
+    plan(*rules, "--out", "p.csv")
+    assert "safe: no conflicts" in run("check", "p.csv", "world.txt", *rules).stdout
+    told = run("check", "p.csv", "world.txt", *rules[2:], status=2).stderr
+    assert "lacks step 1; here is step " in told and ", as by clock costs" in told
+    rows = (folder / "p.csv").read_text().splitlines()[1:]
+    assert [row.split(",")[1] for row in rows] == [row.split(",")[5] for row in rows]
+    # Whoever follows at once is told where that is forbidden.
+    (folder / "row.txt").write_text("ab.D\n")
+    run("plan", "row.txt", *rules, "--out", "row.npz")
+    assert "safe" in run("check", "row.npz").stdout
+    assert "unsafe" in run("check", "row.npz", "--following", "forbid", status=1).stdout
+
+
+def test_movies_keep_the_switch_of_their_clock_and_take_that_of_the_rules(folder):
+    plan("--clock", "costs", "--tessellation", "square", "--out", "p.csv")
+    rules = ("world.txt", "--tessellation", "square", "--clock", "costs")
+    for name, switch in (("a.gif", "--no-clock"), ("b.gif", "--show-clock"), ("c.gif", "--show-clock")):
+        assert " ticks" in run("animate", "p.csv", *rules, switch, "--out", name, "--max-frames", 4).stdout
+    one, other, same = ((folder / f"{name}.gif").read_bytes() for name in "abc")
+    assert one != other == same
 
 
 def test_same_seed_same_plan(folder):
@@ -386,7 +429,7 @@ def test_bars_are_for_terminals_only(folder):
 
 
 def test_every_command_is_listed(folder):
-    helpers = {"group", "options", "outputs", "progress", "texts", "tiles", "types"}
+    helpers = {"group", "maps", "options", "outputs", "progress", "texts", "tiles", "types"}
     modules = {path.stem for path in Path(trihex.cli.__file__).parent.glob("[a-z]*.py")}
     assert modules == helpers | COMMANDS.keys()
 

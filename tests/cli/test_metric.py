@@ -89,11 +89,27 @@ def test_show_tells_and_draws_an_area(house):
     assert lines[-1] == "#" * 23
 
 
+TURNS = ("--turn-time", "0.25", "--frame-id", "hall")
+
+
 def test_a_scenario_tells_its_outputs_and_writes_them_beside_itself(house, tmp_path, monkeypatch):
-    first = ["--robots", 5, "--speed", "0.5", "--write-scenario", "s.toml", "--out", "p.npz", "--waypoints", "w.csv"]
+    first = [
+        "--robots",
+        5,
+        "--speed",
+        "0.5",
+        *TURNS,
+        "--write-scenario",
+        "s.toml",
+        "--out",
+        "p.npz",
+        "--waypoints",
+        "w.csv",
+    ]
     assert run("plan", "house.yaml", *SIZE, *PLACES, *first, "--picture", "p.svg").exit_code == 0
     text = (tmp_path / "s.toml").read_text()
-    assert '[outputs]\nplan = "p.npz"\npicture = "p.svg"\nwaypoints = "w.csv"\nspeed = 0.5\n' in text
+    outputs = 'plan = "p.npz"\npicture = "p.svg"\nwaypoints = "w.csv"\nspeed = 0.5\nturn_time = 0.25\n'
+    assert f'[outputs]\n{outputs}frame_id = "hall"\n' in text
     (tmp_path / "elsewhere").mkdir()
     (tmp_path / "elsewhere" / "s.toml").write_text(text.replace("p.svg", "p.png"))
     before = {name: (tmp_path / name).read_bytes() for name in ("p.npz", "w.csv")}
@@ -131,14 +147,28 @@ def test_starts_of_scen_become_csv(tmp_path, monkeypatch):
 
 
 def test_compare_covers_a_place_anew_by_each_tessellation_that_fits(house):
-    size = ["--cell-size", "0.5", "--robot-radius", "0.1"]
+    size = ["--cell-size", "0.5", "--robot-radius", "0.13"]
     done = run("compare", "house.yaml", *size, *PLACES, "--robots", 10, "--planners", "greedy")
     assert done.exit_code == 0, done.output
     assert [line.split()[0] for line in done.stdout.splitlines()[2:]] == ["hexagonal", "square"]
-    assert done.stderr.startswith("trihex: triangular is left out: cell_size must be at least 0.6111 metres")
+    assert done.stderr.startswith("trihex: triangular is left out: cell_size must be at least 0.7944 metres (0.52 ")
     done = run("compare", "house.yaml", *size, *PLACES, "--robots", 10, "--tessellations", "square,triangular")
     assert (done.exit_code, done.stdout) == (2, "")
-    assert "at least 0.6111 metres on triangular cells" in done.stderr
+    assert "on triangular cells" in done.stderr
     done = run("compare", "house.yaml", "--cell-size", 0.2, "--robot-radius", 0.1, *PLACES, "--robots", 10)
     assert done.exit_code == 2 and done.stderr.count("is left out") == 3
     assert "no tessellation fits" in done.stderr
+
+
+def test_clearance_is_kept_beyond_the_radius(house, tmp_path):
+    """Robots of 0.05 metres that keep 0.05 clear find the room that robots of 0.1 have; less size is refused."""
+    keep = ["--cell-size", "0.4", "--robot-radius", "0.05", "--clearance", "0.05"]
+    done = run("convert", "house.yaml", "a.toml", *keep)
+    assert done.output.endswith("written: a.toml\n")
+    run("convert", "house.yaml", "b.toml", *SIZE)
+    assert (tmp_path / "a.toml").read_text() == (tmp_path / "b.toml").read_text()
+    small = run("plan", "house.yaml", *keep[2:], "--cell-size", "0.3", *PLACES, "--robots", 2)
+    assert small.exit_code == 2 and "cell_size must be at least 0.4 metres" in small.output
+    assert run("plan", "house.yaml", *SIZE, "--clearance", "-1", *PLACES).output.startswith(
+        "trihex: error: --clearance must be a number above 0, not '-1'"
+    )

@@ -17,7 +17,8 @@ from tests.oracles.continuous import (
     greatest_speed,
     read_waypoints,
 )
-from trihex.areas import NEIGHBOURHOODS, TESSELLATIONS, Tessellation
+from tests.sweeps import swept
+from trihex.areas import CLOCKS, FOLLOWINGS, NEIGHBOURHOODS, TESSELLATIONS, Tessellation
 from trihex.areas.clearance import least_cell_size, least_distance
 from trihex.formats import read_area, write_waypoints
 from trihex.kernels.codes import WAIT
@@ -57,17 +58,18 @@ def houses(tmp_path_factory):
     return made
 
 
+@pytest.mark.parametrize(("clock", "following"), list(product(CLOCKS, FOLLOWINGS)))
 @pytest.mark.parametrize(("name", "neighbourhood"), KINDS)
-def test_robots_touch_neither_walls_nor_each_other(houses, tmp_path, name, neighbourhood):
-    tessellation = Tessellation(name, neighbourhood)
+def test_robots_touch_neither_walls_nor_each_other(houses, tmp_path, name, neighbourhood, clock, following):
+    tessellation = Tessellation(name, neighbourhood, "euclidean", clock)
     radius = 0.07 if (name, neighbourhood) == ("triangular", "full") else 0.12
-    size = round(least_cell_size(tessellation, radius) + 5e-5, 4)
-    for seed, (path, occupied, room) in enumerate(houses):
+    size = round(least_cell_size(tessellation, radius, following) + 5e-5, 4)
+    for seed, (path, occupied, room) in enumerate(houses[: swept(4)]):
         area = read_area(path, tessellation, cell_size=size, robot_radius=radius)
         free = np.flatnonzero(~area.barriers)
         exits = np.random.default_rng(seed).choice(free, size=2, replace=False)
         robots = th.random_robots(area, min(60, free.size // 4), seed=seed, avoid=exits)
-        plan = make_plan(th.Scenario(area, exits, robots), "greedy")
+        plan = make_plan(th.Scenario(area, exits, robots, following=following), "greedy")
         assert plan.arrived.sum() > 20
         write_waypoints(plan, tmp_path / "w.csv", speed=0.5)
         assert find_contacts(tmp_path / "w.csv", radius, occupied, room) == []

@@ -180,6 +180,7 @@ def test_files_hold_the_rules_that_came_later_only_where_they_are_not_usual(tmp_
     write_scenario(plan.scenario, tmp_path / "s.toml")
     with np.load(tmp_path / "p.npz") as file:
         assert ("clock" in file.files, "following" in file.files) == (clock == "costs", following == "forbid")
+        assert "zone_cells" not in file.files  # files from before there were zones are read
     text = (tmp_path / "s.toml").read_text()
     assert ("clock =" in text, "following =" in text) == (clock == "costs", following == "forbid")
     assert read_plan(tmp_path / "p.npz") == plan

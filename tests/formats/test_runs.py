@@ -62,6 +62,18 @@ def test_damaged_runs_are_refused(tmp_path):
         th.read_run(path)
 
 
+def test_a_run_from_before_there_were_zones_is_read(tmp_path):
+    area = th.Area("square", np.zeros((2, 5), dtype=bool))
+    events = [Event(2, "barrier", cell=(3, 1)), Event(3, "clear", cell=(3, 1))]
+    run = th.Trial(th.Scenario(area, [(4, 0)], [(0, 0)]), events=events).run()
+    th.write_run(run, tmp_path / "run.npz")
+    with np.load(tmp_path / "run.npz") as file:
+        arrays = {name: own for name, own in file.items() if name not in ("zones_of_events", "metres_of_events")}
+    assert not {"zone_names", "zone_cells"} & set(arrays)
+    np.savez(tmp_path / "run.npz", **arrays)
+    assert th.read_run(tmp_path / "run.npz") == run
+
+
 def test_events_come_back_from_csv(tmp_path):
     rng = np.random.default_rng(3)
     events = tuple(random_events(rng, random_scenario(3, sides=(5, 9)), 60))

@@ -43,7 +43,7 @@ def test_a_map_is_read_as_the_file_says(house):
     ("old", "new", "message"),
     [
         ("cell_size = 0.5", "cell_size = 0", "area.cell_size: must be greater than 0, not 0"),
-        ("cell_size = 0.5", "cell_size = 0.25", r"area: cell_size must be at least 0\.4473 metres (0\.2829"),
+        ("cell_size = 0.5", "cell_size = 0.25", r"area: cell_size must be at least 0\.4473 metres \(0\.2829"),
         ("cell_size = 0.5\nrobot_radius = 0.1\n", "", r"metres\) is measured in metres: say how far apart"),
         ("cell_size = 0.5", "cellsize = 0.5", "area.cellsize: there is no such key; did you mean 'cell_size'"),
         ('"free"', '"fre"', "area.unknown: must be one of barrier, free, not 'fre'; did you mean 'free'"),

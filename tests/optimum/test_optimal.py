@@ -8,7 +8,7 @@ from tests.oracles import flow as oracle_flow
 from tests.oracles.optimum import least_total_time
 from tests.strategies import random_scenario
 from tests.sweeps import swept
-from trihex.optimum import Network, earliest, flow, make_network, workspace
+from trihex.optimum import Network, earliest, flow, make_network, priced, workspace
 from trihex.planners import make_plan, optimal, planner_named
 
 
@@ -72,6 +72,18 @@ def test_slots_exchanged_for_earlier_ones_cost_as_little(monkeypatch, planner, b
     seeds = range(2_000, 2_000 + swept(100, 20))
     found = least_total_times_by(monkeypatch, earliest, "make_earliest_flow", seeds, **changes)
     assert len(found) >= len(seeds) / 4
+
+
+@pytest.mark.parametrize("share", range(10))
+def test_prices_that_rise_cost_as_little(monkeypatch, share):
+    """All that may become full or end early does so; the robots crowd, on all tessellations."""
+    monkeypatch.setattr(optimal, "make_flow_singly", lambda *arguments, **options: None)
+    monkeypatch.setattr(Network, "has_equal_steps", property(lambda self: False))
+    monkeypatch.setattr(workspace, "SPARE_LAYERS", 4)
+    changes = {"_BUDGET": 50, "_LIST": 16, "_RISES": 8, "SPARE_LAYERS": 4}
+    seeds = range(3_000 + share, 3_000 + swept(300, 30), 10)
+    found = least_total_times_by(monkeypatch, priced, "make_flow_at_prices", seeds, **changes)
+    assert len(found) >= len(seeds) / 4  # where waiting is free no flow is needed
 
 
 @pytest.mark.parametrize("share", range(5))
@@ -184,10 +196,11 @@ def test_a_search_that_outgrows_the_limit_is_refused_too(monkeypatch, tessellati
         check_as_ever(network, cells, layers, need, needs[0])
 
     check_as_ever = workspace.check_memory
-    for module in (workspace, earliest):
+    for module in (workspace, earliest, priced):
         monkeypatch.setattr(module, "check_memory", check)
     monkeypatch.setattr(optimal, "make_flow_singly", lambda *arguments, **options: None)
     monkeypatch.setattr(earliest, "_LOG", 16)
+    monkeypatch.setattr(priced, "_LIST", 16)
     with pytest.raises(th.TooLargeError, match="the optimum for 300 robots needs at least"):
         make_plan(scenario, "optimal")
     assert len(needs) == 2

@@ -16,7 +16,7 @@ from PIL import Image
 
 import trihex as th
 from tests.oracles.continuous import boxes_of_pixels, find_contacts
-from trihex.areas import make_regions
+from trihex.areas import FOLLOWINGS, make_regions
 from trihex.areas.clearance import least_cell_size
 from trihex.formats.areas.ros import parse_yaml
 
@@ -24,6 +24,8 @@ KINDS = {
     "hexagonal": th.Tessellation("hexagonal"),
     "triangular, 12": th.Tessellation("triangular"),
     "triangular, 3": th.Tessellation("triangular", "edge"),
+    "square, 8": th.Tessellation("square"),
+    "square, 4": th.Tessellation("square", "edge"),
 }
 
 
@@ -42,16 +44,19 @@ def contacts_on(path, tessellation, options):
     """Return area, cell size and radius that fit, robots planned and contacts found, over all seeds."""
     occupied, room = read_world(path)
     radius = options.robot_radius
-    size = max(options.cell_size, float(np.ceil(least_cell_size(tessellation, radius) * 100)) / 100)
+    least = least_cell_size(tessellation, radius, options.following)
+    size = max(options.cell_size, float(np.ceil(least * 100)) / 100)
     area = th.read_area(path, tessellation, cell_size=size, robot_radius=radius)
     wholes = make_regions(area)
-    largest = np.flatnonzero(wholes.region_of_cell.reshape(-1) == np.argmax(wholes.size_of_region))
     robots, contacts = 0, []
+    if wholes.size_of_region.max(initial=0) < 6:  # no room for two exits and a robot
+        return area, size, radius, robots, contacts
+    largest = np.flatnonzero(wholes.region_of_cell.reshape(-1) == np.argmax(wholes.size_of_region))
     for seed in range(options.seeds):
         exits = np.random.default_rng(seed).choice(largest, size=2, replace=False)
         starts = np.setdiff1d(largest, exits)
         starts = np.random.default_rng(1000 + seed).choice(starts, min(options.robots, starts.size // 3), replace=False)
-        plan = th.make_plan(th.Scenario(area, exits, starts), options.planner)
+        plan = th.make_plan(th.Scenario(area, exits, starts, following=options.following), options.planner)
         assert plan.arrived.all()
         with TemporaryDirectory() as folder:
             th.write_waypoints(plan, Path(folder, "w.csv"), speed=0.5)
@@ -68,6 +73,7 @@ def main():
     parser.add_argument("--robot-radius", type=float, default=0.15)
     parser.add_argument("--seeds", type=int, default=50)
     parser.add_argument("--planner", default="fcost")
+    parser.add_argument("--following", choices=FOLLOWINGS, default="allow")
     options = parser.parse_args()
     found = 0
     print("| map | cells | cell_size, R | free cells | robots | contacts |\n|---|---|---|---|---|---|")

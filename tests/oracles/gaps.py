@@ -1,4 +1,4 @@
-"""How near the bounds come to the optimum where moves last: ``python -m tests.oracles.gaps --count 300``.
+"""How near the bounds come to the optimum where moves last: ``python -m tests.oracles.gaps``.
 
 Small crowded scenarios of all tessellations are solved as integer programs under both clocks and both rules of
 following. It prints the rows of the table in docs/bounds.md: how often the relaxed program and our best bound are equal
@@ -17,17 +17,13 @@ TIMES = list(product(("steps", "costs"), ("allow", "forbid")))
 
 
 def crowded_scenario(seed, *, sides=(3, 6), most_robots=10):
-    """Return a scenario with robots in which waiting costs as is usual, for `with_time`."""
-    while True:
-        scenario = random_scenario(seed, sides=sides, most_robots=most_robots, waiting_costs=(None,))
-        if scenario.robot_count:
-            return scenario
-        seed += 100_000
+    """Return a scenario in which waiting costs as is usual, for `with_time`."""
+    return random_scenario(seed, sides=sides, most_robots=most_robots, waiting_costs=(None,))
 
 
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("--count", type=int, default=300, help="how many scenarios")
+    parser.add_argument("--count", type=int, default=60, help="how many scenarios")
     parser.add_argument("--first", type=int, default=0, help="the seed of the first of them")
     parser.add_argument("--sides", type=int, default=6, help="the greatest height and width")
     parser.add_argument("--robots", type=int, default=10, help="the most robots")

@@ -5,7 +5,7 @@ import pytest
 
 import trihex as th
 from trihex.viewer import shelf as shelves
-from trihex.viewer.live import Live
+from trihex.viewer.live import Live, trial_of
 from trihex.viewer.requests import parse_request
 from trihex.viewer.shelf import Shelf
 
@@ -48,7 +48,7 @@ def test_the_last_live_runs_are_kept_by_name():
     shelf = Shelf()
     assert shelf.last_live is None
     request = parse_request({"op": "live", "planner": "fcost"})
-    runs = [Live(scenario_of(4), request) for _ in range(3)]
+    runs = [Live(trial_of(scenario_of(4), request)) for _ in range(3)]
     names = [shelf.put_live(live) for live in runs]
     assert [shelf.live(name) for name in names[1:]] == runs[1:] and shelf.last_live is runs[2]
     with pytest.raises(th.FormatError, match="this live run is not kept any more"):

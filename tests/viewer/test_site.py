@@ -90,6 +90,19 @@ def test_a_plan_is_shown_at_once_and_places_keep_their_cells(browser, tmp_path):
     th.write_site(plan, tmp_path, planners=("greedy",))  # it is its own
 
 
+def test_without_a_file_it_shows_what_the_viewer_begins_with(browser, open_viewer, tmp_path):
+    th.write_site(None, tmp_path, planners=("greedy",))
+    first = open_viewer()
+    first.wait("app.doc.robots.length && !app.making")
+    with hosted(tmp_path) as address:
+        shown = Shown(browser.new_page())
+        shown.page.goto(address)
+        shown.wait("app.doc")
+        for what in ("[...app.doc.barriers]", "[...app.doc.destinations]", "[...app.doc.robots]"):
+            assert shown.ask(what) == first.ask(what)
+        shown.page.close()
+
+
 def test_what_cannot_be_is_told(tmp_path):
     (tmp_path / "thesis.txt").write_text("mine")
     with pytest.raises(th.FormatError, match="holds other files"):

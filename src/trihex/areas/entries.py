@@ -8,11 +8,11 @@ from numpy.typing import NDArray
 from trihex.areas.scenario import Scenario
 
 
-def ways_into_destinations(scenario: Scenario) -> NDArray[np.int64]:
+def ways_into_destinations(scenario: Scenario, *, by_cells: bool = False) -> NDArray[np.int64]:
     """Return the names of the ways into each destination, each once, shape (destinations, directions); -1: none.
 
     A way is the neighbour that it comes from, by its site, or the vertex that it shares with others where crossing is
-    forbidden, by its number + `layout.size`.
+    forbidden, by its number + `layout.size`; `by_cells`, always the neighbour.
     """
     layout, tessellation = scenario.area.layout, scenario.area.tessellation
     sites = layout.cell_to_site(scenario.destinations)
@@ -23,7 +23,7 @@ def ways_into_destinations(scenario: Scenario) -> NDArray[np.int64]:
     neighbour = sites[:, None] + layout.offset_of_direction[parity, k]
     is_way_in = (scenario.moves[sites][:, None] >> k & 1).astype(bool) & ~is_destination[neighbour]
     name = neighbour.astype(np.int64)
-    if scenario.forbids_crossing:
+    if scenario.forbids_crossing and not by_cells:
         vertex = sites[:, None] + layout.vertex_of_direction[parity, k]
         name = np.where(k >= scenario.first_vertex_move, vertex + layout.size, name)
     name = np.where(is_way_in, name, -1)

@@ -27,21 +27,28 @@ def queue_up(ticks: NDArray[np.int64], headways: NDArray[np.int64]) -> None:
 
 
 def entry_headways(nodes: Nodes) -> NDArray[np.int64]:
-    """Return the headways of the nodes by which robots enter the destinations: the ways in, or the destinations.
+    """Return the headways of the nodes by which robots enter the destinations, those that let in the fewest in the end.
 
-    Of each destination that is taken which lets in fewer robots in the long run.
+    They are the edge neighbours and vertices, or all neighbours (on squares where nobody may follow a vertex is free
+    again sooner than the one cell before it), or, where that lets in fewer, a destination itself.
     """
     scenario = nodes.scenario
     if scenario.is_stepwise:
         return np.ones(entries_per_step(scenario), dtype=np.int64)
-    ways = ways_into_destinations(scenario)
-    best = nodes.headways(np.unique(ways[ways >= 0]))
+    choices = []
+    for by_cells in (False, True):
+        choices += _entry_choices(nodes, ways_into_destinations(scenario, by_cells=by_cells))
+    return min(choices, key=lambda headways: float((1 / headways).sum()))
+
+
+def _entry_choices(nodes: Nodes, ways: NDArray[np.int64]) -> list[NDArray[np.int64]]:
+    """Return the headways of ways into all destinations, and of those into some, of the others as nodes themselves."""
+    scenario, choices = nodes.scenario, [nodes.headways(np.unique(ways[ways >= 0]))]
     if scenario.destination_capacity is not None:
         sites = scenario.area.layout.cell_to_site(scenario.destinations)
         headway = np.where(ways >= 0, nodes.headways(np.maximum(ways, 0).reshape(-1)).reshape(ways.shape), 2**30)
         entry = nodes.headways(sites)
         is_less = scenario.destination_capacity / entry[0] <= (1 / headway).sum(axis=1)
         rest = np.unique(ways[~is_less])
-        others = np.concatenate([nodes.headways(sites[is_less]), nodes.headways(rest[rest >= 0])])
-        best = min(best, others, key=lambda headways: float((1 / headways).sum()))
-    return best
+        choices.append(np.concatenate([nodes.headways(sites[is_less]), nodes.headways(rest[rest >= 0])]))
+    return choices

@@ -82,7 +82,7 @@ def _laid(path: Path, goals: Sequence[tuple[float, float]], options: dict[str, A
     try:
         draft = read_described(path, {**options, **given, "cell_size": size, "robot_radius": radius})
         if draft.area.ground is None:
-            raise wrong_use(f"{path} is no place in metres: fit takes a ROS map, an image, GeoJSON or WKT")
+            raise wrong_use(f"{path} is no place in metres: fit takes a ROS map, an image, GeoJSON, WKT or DXF")
         cells = [int(draft.area.metres_to_cell(*goal)) for goal in goals]
     except (AreaError, TooLargeError, NoRoomError) as error:
         return None, str(error)

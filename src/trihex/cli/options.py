@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from trihex.cli.progress import bar
-from trihex.cli.types import Metres, Name, Place, Share, Whole
+from trihex.cli.types import Metres, Name, Place, Seconds, Share, Whole
 
 if TYPE_CHECKING:
     from trihex.areas import Area, Scenario
     from trihex.formats import Draft
-    from trihex.plans import Plan
+    from trihex.plans import Motion, Plan
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 PATH = click.Path(path_type=Path)
@@ -23,12 +23,26 @@ PATH = click.Path(path_type=Path)
 
 # What `rule_options` adds, and what `formats.options.AreaOptions` takes besides the tessellation.
 RULES = ("waiting_cost", "crossing", "corners", "destination_capacity", "clock", "following", "destination")
-_PLACE = ("cell_size", "robot_radius", "unknown", "threshold", "invert", "resolution", "align")
+_PLACE = (
+    *("cell_size", "robot_radius", "clearance", "unknown", "threshold", "invert", "resolution", "align"),
+    *("walls", "exits", "rooms", "unit", "wall_thickness"),
+)
 
 
 def area_options(command: Command) -> Command:
     """Add what tells how the area of a file is read."""
     for option in (
+        click.option("--wall-thickness", type=Metres(), help="DXF: of lines that are walls, in metres. [default: 0]"),
+        click.option(
+            "--unit",
+            type=Name("trihex.formats.areas.cad", "UNITS"),
+            help="DXF: of lengths. [default: that of the file]",
+        ),
+        click.option("--rooms", metavar="LAYERS", help="DXF: layers of what is free. [default: *room*]"),
+        click.option("--exits", metavar="LAYERS", help="DXF: layers of exits. [default: *exit*]"),
+        click.option(
+            "--walls", metavar="LAYERS", help="DXF: layers of walls, as A-WALL*,COLUMNS. [default: *wall*, or all]"
+        ),
         click.option("--resolution", type=Metres(), help="Images: metres for each pixel."),
         click.option("--invert", is_flag=True, default=None, help="Images: dark pixels are free."),
         click.option(
@@ -44,6 +58,7 @@ def area_options(command: Command) -> Command:
             type=Name("trihex.areas", "ALIGNS"),
             help="In metres: how the grid lies, from the corner or so that most connects. [default: corner]",
         ),
+        click.option("--clearance", type=Metres(), help="In metres: how far robots keep beyond touching. [default: 0]"),
         click.option("--robot-radius", type=Metres(), help="In metres: robots touch neither walls nor each other."),
         click.option("--cell-size", type=Metres(), help="Edge step in metres. [default: the least for --robot-radius]"),
         click.option(
@@ -127,6 +142,27 @@ def robot_options(command: Command) -> Command:
     return command
 
 
+def waypoint_options(command: Command) -> Command:
+    """Add how robots move along waypoints; what is not said is None."""
+    for option in (
+        click.option("--frame-id", metavar="NAME", help="What ROS calls the frame of .yaml and .json. [default: map]"),
+        click.option(
+            "--turn-time",
+            type=Seconds(),
+            help="Seconds in which all stand before each step, so that they can turn on the spot. [default: 0]",
+        ),
+        click.option("--speed", type=Metres(), help="Of the robots, in metres a second. [default: 1.0]"),
+    ):
+        command = option(command)
+    return command
+
+
+def of_waypoints(options: dict[str, Any]) -> dict[str, Any]:
+    """Return, and take out, those of the options that tell how waypoints are written."""
+    own = {name: options.pop(name, None) for name in ("speed", "turn_time", "frame_id")}
+    return {name: value for name, value in own.items() if value is not None}
+
+
 def gathered(name: str, noun: Callable[..., Any]) -> Callable[[Command], Command]:
     """Hand the options that are fields of `noun`, a NamedTuple, on to the command as one record called `name`."""
     fields: tuple[str, ...] = noun._fields  # type: ignore[attr-defined]
@@ -146,6 +182,9 @@ def read_described(path: Path, options: dict[str, Any]) -> Draft:
     """Return the draft in the file at `path`, changed by what the options say."""
     from trihex.formats import read_draft
 
+    place = {name: options[name] for name in _PLACE}
+    if place["robot_radius"] and not place["cell_size"]:  # the least cells depend on the rule
+        place["following"] = options.get("following")
     with bar("covering", "rows") as progress:
         draft = read_draft(
             path,
@@ -153,8 +192,10 @@ def read_described(path: Path, options: dict[str, Any]) -> Draft:
             neighbourhood=options["neighbourhood"],
             costs=options["costs"],
             progress=progress,
-            **{name: options[name] for name in _PLACE},
+            **place,
         )
+    for note in draft.notes:
+        click.echo(f"trihex: {path}: {note}", err=True)
     return _changed(draft, options)
 
 
@@ -264,6 +305,18 @@ def read_judged(
         replace(draft, robots=None).complete()
     scenario = claimed(draft.complete) if for_judge else draft.complete()
     return plan if scenario == plan.scenario else replace(plan, scenario=scenario, optimal=False)
+
+
+def read_played(path: Path, area: Path | None, options: dict[str, Any], **more: Any) -> Motion:
+    """Return the run at `path`, or the plan; see `read_judged`. A run says all itself."""
+    from trihex.formats import is_run, read_run
+
+    if not is_run(path):
+        return read_judged(path, area, options, **more)
+    told = [f"--{name.replace('_', '-')}" for name, value in options.items() if value not in (None, ())]
+    if area is not None or told:
+        raise wrong_use(f"{path} is a run and says all itself, so {told[0] if told else area} cannot be told")
+    return read_run(path)
 
 
 def _same_size(area: Area, own: Area, path: Path, of_plan: Path) -> Area:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from trihex.cli.options import PATH, area_options, read_described
+from trihex.cli.options import PATH, area_options, read_described, wrong_use
 from trihex.cli.types import Whole
 
 if TYPE_CHECKING:
@@ -19,8 +19,11 @@ _MOST_REGIONS = 5
 @click.command("show")
 @click.argument("area", type=PATH)
 @area_options
+@click.option(
+    "--layers", is_flag=True, help="DXF: list the layers, what they are taken for and what is not understood."
+)
 @click.option("--columns", type=Whole(1), default=72, show_default=True, help="Width of the drawing in letters.")
-def command(area: Path, columns: int, **options: Any) -> None:
+def command(area: Path, layers: bool, columns: int, **options: Any) -> None:
     """Tell size, free share and connected parts of an area, and draw it.
 
     In the drawing, D is a destination and o a robot of the file; of the cells that another letter stands for, none
@@ -29,6 +32,9 @@ def command(area: Path, columns: int, **options: Any) -> None:
     """
     from trihex.pictures import preview_lines
 
+    if layers:
+        click.echo("\n".join(_layers(area, options)))
+        return
     draft = read_described(area, options)
     click.echo("\n".join(_told(draft.area)))
     for name, cells in (("destinations", draft.destinations), ("robots", draft.robots)):
@@ -36,6 +42,21 @@ def command(area: Path, columns: int, **options: Any) -> None:
             click.echo(f"{name}: {len(cells)}")
     rows = max(1, columns // 3)
     click.echo("\n".join(preview_lines(draft.area, draft.destinations, draft.robots, columns=columns, rows=rows)))
+
+
+def _layers(path: Path, options: dict[str, Any]) -> list[str]:
+    """Return the layers of a DXF file as a table."""
+    from trihex.cli.texts import table_lines
+    from trihex.files import read_bytes
+    from trihex.formats import AreaOptions, format_of, read_layers
+
+    if format_of(read_bytes(path), path) != "dxf":
+        raise wrong_use(f"--layers lists those of a DXF file, which {path} is not")
+    given = {name: options[name] for name in ("walls", "exits", "rooms", "unit")}
+    rows = read_layers(path, AreaOptions("hexagonal", **given))  # type: ignore[arg-type]
+    if not rows:
+        return [f"{path}: draws nothing"]
+    return table_lines(list(rows[0]), [[str(value) for value in row.values()] for row in rows], left=2)
 
 
 def _told(area: Area) -> list[str]:

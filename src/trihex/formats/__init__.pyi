@@ -1,4 +1,8 @@
+from .areas.dxf import (
+    read_layers as read_layers,
+)
 from .areas.options import (
+    AreaOptions as AreaOptions,
     NoRoomError as NoRoomError,
 )
 from .draft import (
@@ -31,6 +35,7 @@ from .runs.events import (
     write_events as write_events,
 )
 from .runs.npz import (
+    is_run as is_run,
     read_run as read_run,
     write_run as write_run,
 )
@@ -47,6 +52,9 @@ from .text import (
 from .toml import (
     complaint as complaint,
     read_toml as read_toml,
+)
+from .tracks.trajectories import (
+    read_trajectories as read_trajectories,
 )
 from .values_csv import (
     write_values as write_values,

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -30,7 +31,10 @@ class Draft(Record):
     planner : str, optional
     planner_options : dict
     outputs : dict
-        What is to be written: paths of `plan`, `summary`, `picture` and `waypoints`, and the `speed` of the robots.
+        What is to be written: paths of `plan`, `summary`, `picture` and `waypoints`; and of waypoints `speed`,
+        `turn_time` and `frame_id`, as `write_waypoints` takes them.
+    notes : tuple of str
+        What was understood of a drawing, and what was not.
     """
 
     area: Area
@@ -47,6 +51,11 @@ class Draft(Record):
     outputs: dict[str, Any] = field(default_factory=dict)
     clock: str | None = None
     following: str | None = None
+    notes: tuple[str, ...] = ()
+
+    def with_notes(self, notes: Iterable[str]) -> Draft:
+        """Return the same draft with things that the reader of a file wants to be told."""
+        return replace(self, notes=tuple(notes))
 
     def complete(self, kind: type[Scenario] = Scenario) -> Scenario:
         """Return the scenario, or the claim, for the judge; what is still open takes its default.

@@ -96,6 +96,10 @@ _FORMATS = (
         "image", "an image", "area", "areas.image.parse_image",
         rb"\A(?:\x89PNG|\xff\xd8\xff|GIF8|(?s:BM.{4}\0\0\0\0)|P[1-6Ff]\s)", is_text=False,
     ),
+    Format(
+        "dxf", "DXF", "area", "areas.dxf.parse_dxf",
+        rb"\A(?:AutoCAD Binary DXF|\s*(?:999[^\S\n]*\n.*\n\s*)*0[^\S\n]*\n\s*SECTION)", (".dxf",), is_text=False,
+    ),
     Format("plan", "a plan (.csv)", "plan", "plans.csv.parse_plan_csv", _first_line(PLAN_HEADER)),
     Format(
         "starts", "starts (.csv)", "starts", "starts.csv.parse_starts",

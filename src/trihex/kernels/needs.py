@@ -30,8 +30,9 @@ KERNELS_OF: dict[str, tuple[str, ...]] = {
     "timely greedy": _TIMELY,
     "timely fcost": (*_TIMELY, *_REPAIR, "planners.lanes", "planners.laying"),
     "optimal": _OPTIMUM,  # and, where robots crowd, one of two more: `trihex.planners.uses_of`
-    "optimal_levels": (*_OPTIMUM, "optimum.levels"),
+    "optimal_crowd": (*_OPTIMUM, "optimum.prices", "optimum.raising", "optimum.serving"),
     "optimal_earliest": (*_OPTIMUM, *_FCOST, "optimum.earliest", "optimum.laid"),
+    "straight": (*_ASTAR, "planners.straight"),
     "audit": ("judging.audit", "plans.replay"),
     "timely audit": ("judging.timed", "plans.replay"),
     "bound": (*_BOUND, "bounds.steps", "bounds.units"),
@@ -45,6 +46,8 @@ KERNELS_OF: dict[str, tuple[str, ...]] = {
     "area": ("areas.caves", "areas.mazes", "areas.coverage", "areas.regions"),
     "generations": ("fields.generations",),
     "page": ("plans.playback",),
+    "waypoints": ("plans.rows",),
+    "ticks": ("plans.ticks",),
     "reach": ("judging.reach",),
 }
 

@@ -3,7 +3,6 @@ from .earliest import (
 )
 from .flow import (
     Flow as Flow,
-    make_flow_by_levels as make_flow_by_levels,
     make_flow_singly as make_flow_singly,
 )
 from .network import (
@@ -13,4 +12,7 @@ from .network import (
 )
 from .paths import (
     make_plan_of_flow as make_plan_of_flow,
+)
+from .priced import (
+    make_flow_at_prices as make_flow_at_prices,
 )

@@ -12,7 +12,7 @@ from trihex.errors import PlanError
 from trihex.memory import limit_or_default
 from trihex.optimum.flow import Flow
 from trihex.optimum.network import Network
-from trihex.optimum.workspace import check_memory
+from trihex.optimum.workspace import check_memory, start_nodes
 from trihex.plans import Plan
 
 # Bytes for each node of a layer: a word, and its flow in the end.
@@ -62,7 +62,7 @@ def make_earliest_flow(
     limit = limit_or_default(memory_limit)
     check_memory(network, cells, layers, layers * size * _BYTES_PER_NODE, limit)
     graph = _make_graph(network)
-    start = network.hops[cells].astype(np.int64) * size + cells
+    start = start_nodes(network, cells)
     search = _make_search(network, _lay_plan(network, graph, plan, start, robots, layers))
     status = BUDGET_SPENT
     while status != DONE:

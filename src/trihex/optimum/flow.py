@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.optimum.network import Network
-from trihex.optimum.workspace import Workspace
+from trihex.optimum.workspace import Workspace, most_entries
 
 # Small pieces of work between two looks at the keyboard: some 0.1 s.
 _BUDGET = 500_000
@@ -71,37 +71,17 @@ def make_flow_singly(
     from trihex.optimum.kernels.residual import DONE, SPENT, VISITS
     from trihex.optimum.kernels.single import serve_singly
 
-    work = Workspace(network, cells, _least_layers(network, cells), memory_limit)
+    work = Workspace(network, cells, memory_limit)
     # There is a quicker way to go on where steps cost the same.
     patience = 1 / 16 if network.has_equal_steps else 1
     while True:
-        status = serve_singly(work.layer, work.nodes, work.ahead, work.ends, work.state, _BUDGET)
+        status = serve_singly(work.layer, work.nodes, work.search, work.ends, work.state, _BUDGET)
         _tell(progress, work)
         if status == DONE:
             return _flow_of(work)
         one_robot, every_robot, size = int(work.state[SPENT]), int(work.state[VISITS]), work.nodes.flow.size
         if one_robot > patience * size or every_robot > 4 * size:
             return None
-        work.make_room(status)
-
-
-def make_flow_by_levels(
-    network: Network,
-    cells: NDArray[np.int64],
-    *,
-    progress: Callable[[int, int], None] | None = None,
-    memory_limit: int | None = None,
-) -> Flow:
-    """Find paths of least total cost in order of cost; for parameters and errors see `make_flow_singly`."""
-    from trihex.optimum.kernels.levels import search
-    from trihex.optimum.kernels.residual import DONE
-
-    work = Workspace(network, cells, _least_layers(network, cells), memory_limit)
-    while True:
-        status = search(work.layer, work.nodes, work.back, work.ahead, work.ends, work.state, _BUDGET)
-        _tell(progress, work)
-        if status == DONE:
-            return _flow_of(work)
         work.make_room(status)
 
 
@@ -122,24 +102,8 @@ def _meet_seldom(network: Network, cells: NDArray[np.int64]) -> bool:
     """Tell whether robots are hardly held up at the destinations, in each step of which so many arrive and no more."""
     distance = network.value[cells].astype(np.int64)
     index = np.arange(cells.size)
-    entries = _most_entries(network)
+    entries = most_entries(network)
     # The latest of the slots that robots before may have taken; robots are in ascending order of value.
     arrival = np.maximum.accumulate(distance // network.base - index // entries) + index // entries
     held_up = int(np.maximum(arrival * network.base - distance, 0).sum())
     return held_up < _SELDOM * int(distance.sum())
-
-
-def _most_entries(network: Network) -> int:
-    """Return how many robots can arrive in a step, at most.
-
-    Unlike `trihex.areas.entries_per_step` this counts a cell or vertex between two destinations for each of them: a
-    little too many, which only decides how a plan is found. With the exact count some plans become others, as good.
-    """
-    return max(1, int(network.room.sum()))
-
-
-def _least_layers(network: Network, cells: NDArray[np.int64]) -> int:
-    """Return a lower bound on the last arrival: so many robots enter the destinations in a step and no more."""
-    hops = np.sort(network.hops[cells])
-    behind = np.arange(cells.size)[::-1]
-    return int((hops + behind // _most_entries(network)).max(initial=0)) + 1

@@ -17,6 +17,8 @@ from trihex.optimum.passages import Passages, make_passages
 from trihex.record import Record, read_only
 
 OBJECTIVES = ("time", "steps")
+# How many robots may arrive in a step where there is no limit.
+_ANY_NUMBER = 255
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,6 +90,11 @@ class Network(Record):
         """How many robots get into each destination in a step."""
         arcs = np.count_nonzero(self.in_arcs[self.first_destination :, :, 0], axis=1)
         return read_only(np.minimum(arcs, self.scenario.entry_limit or arcs))
+
+    @property
+    def capacity(self) -> int:
+        """How many robots get into a destination in a step, no more than fit into a byte; none has more neighbours."""
+        return min(self.scenario.entry_limit or _ANY_NUMBER, _ANY_NUMBER)
 
     @property
     def has_equal_steps(self) -> bool:

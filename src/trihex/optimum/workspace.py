@@ -11,14 +11,12 @@ from trihex.errors import TooLargeError
 from trihex.memory import GIB, limit_or_default
 from trihex.optimum.network import Network
 
-# Bytes for each node of a layer: flow and two bounds.
-_BYTES_PER_NODE = 9
+# Bytes for each node of a layer: flow and a bound.
+_BYTES_PER_NODE = 5
 # Length of the logs of the searches at first.
 _LOG = 1 << 12
-# How many robots may arrive in a step where there is no limit; more neighbours no destination has.
-_ANY_NUMBER = 255
 # Layers beyond the last that is needed whatever the robots do.
-_SPARE_LAYERS = 8
+SPARE_LAYERS = 8
 
 
 class Workspace:
@@ -31,42 +29,52 @@ class Workspace:
     network : Network
     cells : ndarray of int64
         Node where each robot starts.
-    layers : int
-        How many are needed at least.
     memory_limit : int, optional
         In bytes. Default: 80 % of what is available.
     """
 
-    def __init__(self, network: Network, cells: NDArray[np.int64], layers: int, memory_limit: int | None) -> None:
-        from trihex.optimum.kernels import levels, residual as kernels
+    def __init__(self, network: Network, cells: NDArray[np.int64], memory_limit: int | None) -> None:
+        from trihex.kernels.signatures import given
+        from trihex.optimum.kernels import residual as kernels
 
         self.network, self.cells = network, cells
         self.limit = limit_or_default(memory_limit)
-        self.layers = layers + _SPARE_LAYERS
+        self.layers = least_layers(network, cells) + SPARE_LAYERS
         self._check_memory(self.layers)
         size = self.layers * network.node_count
-        self.layer = _make_layer(network)
-        self.nodes = kernels.FlowNodes(*(np.zeros(size, dtype) for dtype in (np.uint8, np.int32, np.int32)))
-        self.back, self.ahead = (_make_search(_LOG) for _ in range(2))
-        self.ends = _make_ends(network, cells, self.layers)
+        self.layer = given(
+            kernels.Layer,
+            out=network.out_arcs,
+            into=network.in_arcs,
+            first_goal=network.first_destination,
+            capacity=network.capacity,
+        )
+        self.nodes = kernels.FlowNodes(np.zeros(size, np.uint8), np.zeros(size, np.int32))
+        self.search = kernels.FlowSearch(
+            np.empty((_LOG, kernels.LOG_COLUMNS), dtype=np.int64),
+            np.full(kernels.SEARCH_STATE_SIZE, kernels.NONE, dtype=np.int64),
+            np.empty(kernels.LISTS, dtype=np.int64),
+        )
+        self.search.state[kernels.LOGGED] = 0
+        self.ends = given(
+            kernels.FlowEnds, start=start_nodes(network, cells), value=network.value[cells].astype(np.int64)
+        )
         self.state = np.zeros(kernels.STATE_SIZE, dtype=np.int64)
         self.state[kernels.LEVEL] = kernels.NONE
-        self.state[kernels.SIDE] = levels.AHEAD
 
     def make_room(self, status: int) -> None:
         """Make room for what a search ended for; refuse it if there is none."""
         from trihex.optimum.kernels import residual as kernels
 
         if status == kernels.LIST_FULL:
-            needed = int(self.state[kernels.OPEN_GOALS])
-            self._check_memory(self.layers, 3 * max(self.back.log.nbytes, self.ahead.log.nbytes))
-            self.back, self.ahead = _with_room(self.back, needed), _with_room(self.ahead, 0)
+            log: Any = self.search.log
+            self._check_memory(self.layers, 3 * log.nbytes)
+            self.search = self.search._replace(log=np.concatenate([log, np.empty_like(log)]))
         elif status == kernels.LAYERS_FULL:
             more = max(8, self.layers // 2)
             self._check_memory(self.layers + more)
-            self.nodes = kernels.FlowNodes(*(_longer(array, array.size // self.layers * more) for array in self.nodes))
-            goals = self.ends.goals
-            self.ends = self.ends._replace(goals=_longer(goals, goals.size // self.layers * more))
+            added = more * self.network.node_count
+            self.nodes = kernels.FlowNodes(*(longer(array, added) for array in self.nodes))
             self.layers += more
         elif status == kernels.LEVELS_FULL:
             raise TooLargeError(
@@ -88,61 +96,28 @@ def check_memory(network: Network, cells: NDArray[np.int64], layers: int, need: 
         )
 
 
-def _make_layer(network: Network) -> Any:
-    from trihex.kernels.signatures import given
-    from trihex.optimum.kernels import residual as kernels
-
-    return given(
-        kernels.Layer,
-        out=network.out_arcs,
-        into=network.in_arcs,
-        hops=network.hops,
-        order=network.order,
-        is_vertex=network.is_vertex,
-        first_goal=network.first_destination,
-        capacity=min(network.scenario.entry_limit or _ANY_NUMBER, _ANY_NUMBER),
-        base=network.base,
-        grain=int(np.gcd.reduce(network.out_arcs[:, :, kernels.EXTRA], axis=None)) or kernels.MARK,
-    )
+def start_nodes(network: Network, cells: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return the index of the node of each robot in step 0."""
+    return network.hops[cells].astype(np.int64) * network.node_count + cells
 
 
-def _make_search(length: int) -> Any:
-    from trihex.optimum.kernels import residual as kernels
+def most_entries(network: Network) -> int:
+    """Return how many robots can arrive in a step, at most.
 
-    state = np.zeros(kernels.SEARCH_STATE_SIZE, dtype=np.int64)
-    state[kernels.CURRENT], state[kernels.SHORT] = kernels.NONE, kernels.MARK
-    log, heads = np.empty((length, kernels.LOG_COLUMNS), dtype=np.int64), np.empty(kernels.LISTS, dtype=np.int64)
-    return kernels.FlowSearch(log, state, heads)
-
-
-def _make_ends(network: Network, cells: NDArray[np.int64], layers: int) -> Any:
-    from trihex.kernels.signatures import given
-    from trihex.optimum.kernels import residual as kernels
-
-    size = network.node_count
-    lacks = np.zeros(size, dtype=np.uint8)
-    lacks[cells] = 1
-    return given(
-        kernels.FlowEnds,
-        start=network.hops[cells].astype(np.int64) * size + cells,
-        value=network.value[cells].astype(np.int64),
-        lacks=lacks,
-        goals=np.empty(layers * (size - network.first_destination), dtype=np.int64),
-        away=np.zeros(size, dtype=np.int32),
-        queue=np.empty(size, dtype=np.int32),
-    )
+    Unlike `trihex.areas.entries_per_step` this counts a cell or vertex between two destinations for each of them: a
+    little too many, which only decides how a plan is found. With the exact count some plans become others, as good.
+    """
+    return max(1, int(network.room.sum()))
 
 
-def _with_room(search: Any, needed: int) -> Any:
-    """Return a search with a longer log if that is nearly full, or shorter than is `needed`."""
-    from trihex.optimum.kernels import residual as kernels
-
-    if 2 * max(search.state[kernels.LOGGED], needed) < len(search.log):
-        return search
-    return search._replace(log=np.concatenate([search.log, np.empty_like(search.log)]))
+def least_layers(network: Network, cells: NDArray[np.int64]) -> int:
+    """Return a lower bound on the last arrival: so many robots enter the destinations in a step and no more."""
+    hops = np.sort(network.hops[cells])
+    behind = np.arange(cells.size)[::-1]
+    return int((hops + behind // most_entries(network)).max(initial=0)) + 1
 
 
-def _longer(array: NDArray[Any], more: int) -> NDArray[Any]:
+def longer(array: NDArray[Any], more: int) -> NDArray[Any]:
     """Return a copy with room for `more` entries; the new ones are 0."""
     longer = np.zeros(array.size + more, dtype=array.dtype)
     longer[: array.size] = array

@@ -19,7 +19,7 @@ from trihex.optimum import (
     Flow,
     Network,
     make_earliest_flow,
-    make_flow_by_levels,
+    make_flow_at_prices,
     make_flow_singly,
     make_network,
     make_plan_of_flow,
@@ -104,7 +104,7 @@ def _find_flow(
     flow = make_flow_singly(network, cells, **options)
     if flow is not None:
         return flow
-    prepare("optimal_earliest" if network.has_equal_steps else "optimal_levels")
+    prepare("optimal_earliest" if network.has_equal_steps else "optimal_crowd")
     if network.has_equal_steps:
         return make_earliest_flow(network, cells, robots, plan_fcost(n_scheme), **options)
-    return make_flow_by_levels(network, cells, **options)
+    return make_flow_at_prices(network, cells, **options)

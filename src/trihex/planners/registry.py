@@ -63,7 +63,7 @@ def uses_of(name: str, scenario: Scenario) -> list[str]:
     if scenario.waiting_cost == 0:
         return [name, "greedy"]
     is_equal = (scenario.area.tessellation.cost_of_direction == scenario.waiting_cost).all()
-    return [name, "optimal_earliest" if is_equal else "optimal_levels"]
+    return [name, "optimal_earliest" if is_equal else "optimal_crowd"]
 
 
 def options_of(name: str) -> dict[str, Any]:

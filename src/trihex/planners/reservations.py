@@ -151,6 +151,20 @@ class Reservations:
         reserve = reservations.reserve_ticks if self._reserved.per_tick else reservations.reserve
         reserve(start, actions, self._terrain, self._reserved)
 
+    def unreserve(self, start: int, actions: NDArray[np.uint8]) -> None:
+        """Free a way that was reserved."""
+        from trihex.planners.kernels import reservations
+
+        reservations.unreserve(start, actions, self._terrain, self._reserved)
+
+    def straighten_way(
+        self, start: int, most: int, turn: NDArray[np.int32], layers: Any, actions: NDArray[np.uint8]
+    ) -> int:
+        """Fill `actions` with the straightest of the cheapest ways of as many; see the kernel."""
+        from trihex.planners.kernels import straight
+
+        return int(straight.straighten_way(start, most, self._terrain, self._reserved, turn, layers, actions))
+
 
 def _grown(array: NDArray[Any], size: int) -> NDArray[Any]:
     """Return a copy with room for `size` entries; the new ones are 0."""

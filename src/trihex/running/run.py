@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from trihex.areas import Scenario, World, count_by_zone
 from trihex.kernels.codes import LATE, UNDERWAY, WAIT
-from trihex.record import Record, counted, read_only
+from trihex.plans import Motion
+from trihex.record import counted, read_only
 from trihex.running.events import Occurrence
 from trihex.running.sensing import Sensor
 
@@ -21,7 +22,7 @@ GOING, ARRIVED, LEFT, BROKEN = range(4)
 
 
 @dataclass(frozen=True, eq=False)
-class Run(Record):
+class Run(Motion):
     """What happened, from which all else follows.
 
     Parameters
@@ -119,10 +120,15 @@ class Run(Record):
         """F_t, the list of t_r = d_r + w_r."""
         return self.distance_of_robot + self.waiting_of_robot
 
-    @property
-    def total_time(self) -> int:
-        """Sum of t_r over the robots that arrived."""
-        return int(self.time_of_robot[self.arrived].sum())
+    @cached_property
+    def last_cell_of_robot(self) -> NDArray[np.int64]:
+        """Number of the cell in which each robot was last: its destination, if it arrived."""
+        *_, site = self._sites_by_step()
+        return read_only(self.scenario.area.layout.site_to_cell(site))
+
+    def actions_in(self, step: int) -> NDArray[np.uint8]:
+        """Return what each robot did in step 1, 2, ...: a direction, `WAIT` or `LATE`."""
+        return np.asarray(self.actions[step - 1])
 
     @property
     def arrivals_of_exit(self) -> dict[str, int]:

@@ -86,11 +86,11 @@ def write_site(
 
 def _scenario_of(record: Scenario | Plan | Draft | None) -> Scenario:
     if record is None:
-        area = make_rooms_area("hexagonal", 32, 48, seed=1)
+        area = make_rooms_area("hexagonal", 32, 48, seed=7)  # as in draws.js
         free = np.flatnonzero(~area.barriers)
         x, y = area.cell_to_xy(free)
         end = free[[np.argmin(abs(x - area.width / 2) + abs(y - area.height / 2))]]
-        return Scenario(area, end, random_robots(area, 60, 1, avoid=end), seed=1)
+        return Scenario(area, end, random_robots(area, 120, 1, avoid=end), seed=1)
     if isinstance(record, Draft):
         return record.complete()
     return record.scenario if isinstance(record, Plan) else record

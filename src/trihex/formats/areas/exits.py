@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from trihex.areas import Area, DrawnGround
 from trihex.formats.areas.options import NoRoomError
 
-_SAMPLES_A_CELL = 8
+_SAMPLES_A_CELL, _MOST_SAMPLES = 8, 20_000
 # How far behind its robots' radius the first free cell beside a wall may begin: 1.55 cells on triangles, one elsewhere.
 _CELLS_AWAY = 2.0
 _DEEPEST = 0.6  # metres in a wall: what lies deeper leads nowhere
@@ -85,7 +85,7 @@ def _rays_from(exit_: Any, cell_size: float, length: float) -> tuple[NDArray[Any
     outline = exit_ if is_line else exit_.exterior
     if not is_line and not outline.is_ccw:  # then outside is to the left
         outline = shapely.reverse(outline)
-    count = ceil(_SAMPLES_A_CELL * outline.length / cell_size) + 1
+    count = min(_MOST_SAMPLES, ceil(_SAMPLES_A_CELL * outline.length / cell_size) + 1)
     at = (np.arange(count) + 0.5) * (outline.length / count)
     part = 1e-3 * outline.length / count
     here, before, after = (

@@ -12,30 +12,42 @@ from numpy.typing import NDArray
 from trihex.areas import Scenario, Tessellation, claimed
 from trihex.errors import FormatError
 from trihex.files import new_file
+from trihex.formats.plans.columns import columns_of, words_of_actions
 from trihex.formats.registry import PLAN_HEADER
 from trihex.formats.table import check_inside, parse_table, spelling_of
 from trihex.formats.text import Text
 from trihex.kernels.codes import JUMP, WAIT
-from trihex.plans import Plan, actions_of
+from trihex.plans import Motion, Plan, actions_of
 
 _BUFFER = 4 << 20  # bytes that the kernel fills in one call, some 10 ms
 
 
-def words_of_actions(tessellation: Tessellation) -> list[str]:
-    """Return the words of the column `action`; a table holds their indexes."""
-    north, south = tessellation.direction_names
-    return [*north, *south, "start", "wait", "jump"]
-
-
 def write_plan_csv(
-    plan: Plan, path: str | os.PathLike[str], *, progress: Callable[[int, int], None] | None = None
+    motion: Motion, path: str | os.PathLike[str], *, progress: Callable[[int, int], None] | None = None
 ) -> None:
     """Write header `robot,step,x,y,action,time` and a row for each robot and action.
 
     step is that in which the action ends, x, y the cell after it, time the running t_r. Where moves last as long as
     they cost, steps are ticks and rise by more than one. A robot that cannot arrive, or starts on a destination, has
     its row of step 0 only. Area, destinations and rules are not kept: whoever reads the file must name them again.
+
+    In a run the rows of a robot begin with the step after which it joined, and end when it is not there any more or all
+    is over; `late` is an action, too.
     """
+    if isinstance(motion, Plan):
+        _write_plan(motion, path, progress)
+        return
+    columns, rows = columns_of(motion), 50_000
+    with new_file(path) as part, open(part, "w", encoding="ascii", newline="\n") as file:
+        file.write(f"{PLAN_HEADER}\n")
+        for first in range(0, columns.robot.size, rows):
+            some = [column[first : first + rows].tolist() for column in columns[:6]]
+            file.writelines(f"{r},{s},{x},{y},{columns.words[a]},{t}\n" for r, s, x, y, a, t in zip(*some, strict=True))
+            if progress is not None:
+                progress(min(first + rows, columns.robot.size), columns.robot.size)
+
+
+def _write_plan(plan: Plan, path: str | os.PathLike[str], progress: Callable[[int, int], None] | None) -> None:
     from trihex.formats.kernels import table_text
     from trihex.kernels.signatures import given
 
@@ -104,8 +116,8 @@ def plan_of_table(table: NDArray[np.int64], scenario: Scenario, path: object) ->
         table, line = table[:, order], line[order]
     robot, step, x, y, word, time = table
     start, wait = len(words) - 3, len(words) - 2
-    actions, said = _actions(tessellation, x, y, word, wait)
-    is_start = _check_steps(robot, step, said, scenario, line, path)
+    actions, lasts = _actions(tessellation, x, y, word, wait)
+    is_start = _check_steps(robot, step, lasts, tessellation, line, path)
     _check_rows(
         is_start != (word == start), "action must be 'start' at step 0, and only there", words, word, line, path
     )
@@ -147,8 +159,8 @@ def _order(table: NDArray[np.int64]) -> NDArray[np.int64] | None:
 def _check_steps(
     robot: NDArray[np.int64],
     step: NDArray[np.int64],
-    said: NDArray[np.int64],
-    scenario: Scenario,
+    lasts: NDArray[np.int64],
+    tessellation: Tessellation,
     line: NDArray[np.int64],
     path: object,
 ) -> NDArray[np.bool_]:
@@ -156,7 +168,6 @@ def _check_steps(
     before_robot, before_step = np.append(-1, robot[:-1]), np.append(-1, step[:-1])
     begins = np.asarray(robot != before_robot)
     begins[:1] = True
-    lasts = _by_action(scenario.duration_of_direction, 1)[said]
     wrong = np.where(begins, (robot != before_robot + 1) | (step != 0), step != before_step + lasts)
     if not wrong.any():
         return begins
@@ -171,13 +182,13 @@ def _check_steps(
         raise FormatError(f"{where}: robot {robot[row]} must begin with step 0, not {step[row]}")
     if step[row] == before_step[row]:
         raise FormatError(f"{where}: robot {robot[row]} has step {step[row]} twice")
-    if scenario.clock == "costs":
+    lasts = np.broadcast_to(lasts, step.shape)
+    if tessellation.clock == "costs":
         raise FormatError(
             f"{where}: step must rise by {lasts[row]}, as long as the action lasts, not by "
             f"{step[row] - before_step[row]}; the plan was made with another clock or other costs"
         )
-    ticks = replace(scenario.area.tessellation, clock="costs").duration_of_direction
-    is_in_ticks = said[row] < ticks.size and ticks[said[row]] == step[row] - before_step[row]
+    is_in_ticks = step[row] - before_step[row] in replace(tessellation, clock="costs").duration_of_direction
     raise FormatError(
         f"{where}: robot {robot[row]} lacks step {before_step[row] + 1}; here is step {step[row]}"
         f"{', as by clock costs' if is_in_ticks else ''}"
@@ -187,7 +198,7 @@ def _check_steps(
 def _actions(
     tessellation: Tessellation, x: NDArray[np.int64], y: NDArray[np.int64], word: NDArray[np.int64], wait: int
 ) -> tuple[NDArray[np.uint8], NDArray[np.int64]]:
-    """Return the action of each row, `JUMP` if word and cells disagree, and the action that the word says."""
+    """Return the action of each row, `JUMP` if word and cells disagree, and how long lasts what the word says."""
     from_x, from_y = np.append(x[:1], x[:-1]), np.append(y[:1], y[:-1])
     orientation = tessellation.orientation_of_cell(from_x, from_y)
     # What a name means depends on the cell that is left.
@@ -198,12 +209,18 @@ def _actions(
     )
     direction_of_word[:, wait] = WAIT
     actions = direction_of_word[orientation, word]
-    # A name of the other orientation means no move here, but tells how long it would last.
-    said = np.where((actions == JUMP) & (word < wait - 1), word % tessellation.direction_count, actions)
+    lasts = np.ones((), dtype=np.int64)
+    if (tessellation.duration_of_direction != 1).any():
+        # A name of the other orientation means no move here, but tells how long it would last.
+        names = np.arange(wait - 1) % tessellation.direction_count
+        said = np.where(direction_of_word[:, : wait - 1] == JUMP, names, direction_of_word[:, : wait - 1])
+        of_word = np.ones(direction_of_word.shape, dtype=np.int64)
+        of_word[:, : wait - 1] = tessellation.duration_of_direction[said]
+        lasts = of_word[orientation, word]
     steps = np.concatenate([tessellation.step_of_direction, np.zeros((2, WAIT, 2), dtype=np.int32)], axis=1)
     step = steps[orientation, actions]
     actions[(step[:, 0] != x - from_x) | (step[:, 1] != y - from_y)] = JUMP
-    return actions, said
+    return actions, lasts
 
 
 def _by_action(of_direction: NDArray[np.int32], of_others: int) -> NDArray[np.int64]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import zipfile
 from collections.abc import Callable
 from math import isnan
 from typing import Any
@@ -20,6 +21,7 @@ from trihex.running import BROKEN, KINDS, Event, Occurrence, Run, Sensor
 VERSION = 1
 _CHANGES = ("blocked", "freed", "opened", "closed", "left_out")
 _NONE = -(2**31)
+_LATER = {"zones_of_events": np.empty(0, dtype=np.uint8), "metres_of_events": np.empty((0, 4))}
 _ENTRIES: Entries = {
     "version": ("i", 0),
     **SCENARIO_ENTRIES,
@@ -94,6 +96,15 @@ def write_run(run: Run, path: str | os.PathLike[str], *, progress: Callable[[int
     )
 
 
+def is_run(path: str | os.PathLike[str]) -> bool:
+    """Tell whether a file looks like one that `write_run` made."""
+    try:
+        with zipfile.ZipFile(path) as archive:
+            return "run_actions.npy" in archive.namelist()
+    except (zipfile.BadZipFile, OSError, ValueError, NotImplementedError):
+        return False
+
+
 def read_run(path: str | os.PathLike[str]) -> Run:
     """Return the run of a file that `write_run` made.
 
@@ -106,7 +117,7 @@ def read_run(path: str | os.PathLike[str]) -> Run:
     OSError
         If the file cannot be read.
     """
-    arrays = unpack(read_bytes(path), path, _ENTRIES, VERSION, "a run", LATER_ENTRIES)
+    arrays = unpack(read_bytes(path), path, _ENTRIES, VERSION, "a run", LATER_ENTRIES | _LATER)
     scenario = scenario_from(arrays, path)
     radius, area = float(arrays["radius"]), scenario.area
     run = Run(
@@ -166,8 +177,8 @@ def _places(table: NDArray[np.float64], count: int, path: object) -> list[list[A
 
 
 def _lines(text: NDArray[np.uint8], count: int) -> list[str]:
-    """Return text as lines; none if there are to be none."""
-    return text.tobytes().decode(errors="replace").split("\n") if count else []
+    """Return text as lines, of no text as many as there are to be."""
+    return text.tobytes().decode(errors="replace").split("\n") if text.size else [""] * count
 
 
 def _check(run: Run, path: object) -> None:

@@ -11,8 +11,10 @@ from trihex.areas import Area, Frame, Scenario, Tessellation, Zone
 from trihex.errors import FormatError
 from trihex.formats.archive import Entries
 
-# Rules that came later, and what holds where a file does not have them: it has none that is usual.
-LATER_ENTRIES = {"clock": "steps", "following": "allow"}
+# Entries that came later, and what holds where a file does not have them: it has none that is usual.
+_LATER_RULES = {"clock": "steps", "following": "allow"}
+_NO_ZONES = {"zone_names": np.empty(0, dtype=np.uint8), "zone_cells": np.empty((0, 2), dtype=np.int64)}
+LATER_ENTRIES: dict[str, Any] = {**_LATER_RULES, **_NO_ZONES}
 SCENARIO_ENTRIES: Entries = {
     "tessellation": ("U", 0),
     "neighbourhood": ("U", 0),
@@ -29,7 +31,7 @@ SCENARIO_ENTRIES: Entries = {
     "corners": ("U", 0),
     "destination_capacity": ("i", 0),  # 0: any number
     "seed": ("i", 0),  # -1: none
-    **dict.fromkeys(LATER_ENTRIES, ("U", 0)),
+    **dict.fromkeys(_LATER_RULES, ("U", 0)),
 }
 
 
@@ -43,10 +45,7 @@ def scenario_arrays(scenario: Scenario) -> dict[str, Any]:
         "area": area.name,
         "barriers": area.barriers,
         "frame": np.array([] if (at := area.frame) is None else [at.cell_size, *at.origin, at.yaw, at.robot_radius]),
-        "zone_names": np.frombuffer("\n".join(zone.name for zone in area.zones).encode(), dtype=np.uint8),
-        "zone_cells": np.array(
-            [(number, cell) for number, zone in enumerate(area.zones) for cell in zone.cells.tolist()], dtype=np.int64
-        ).reshape(-1, 2),
+        **(_zone_arrays(area.zones) if area.zones else {}),
         "destinations": scenario.destinations,
         "robots": scenario.robots,
         "waiting_cost": scenario.waiting_cost,
@@ -54,7 +53,7 @@ def scenario_arrays(scenario: Scenario) -> dict[str, Any]:
         "corners": scenario.corners,
         "destination_capacity": scenario.entry_limit,
         "seed": -1 if scenario.seed is None else scenario.seed,
-        **{name: rule for name, usual in LATER_ENTRIES.items() if (rule := getattr(scenario, name)) != usual},
+        **{name: rule for name, usual in _LATER_RULES.items() if (rule := getattr(scenario, name)) != usual},
     }
 
 
@@ -72,8 +71,16 @@ def scenario_from(arrays: dict[str, Any], path: object, kind: type[Scenario] = S
         text["corners"],
         None if capacity == 0 else capacity,
         None if seed == -1 else seed,
-        **{name: text[name] for name in LATER_ENTRIES},
+        **{name: text[name] for name in _LATER_RULES},
     )
+
+
+def _zone_arrays(zones: tuple[Zone, ...]) -> dict[str, Any]:
+    pairs = [(number, cell) for number, zone in enumerate(zones) for cell in zone.cells.tolist()]
+    return {
+        "zone_names": np.frombuffer("\n".join(zone.name for zone in zones).encode(), dtype=np.uint8),
+        "zone_cells": np.array(pairs, dtype=np.int64).reshape(-1, 2),
+    }
 
 
 def _zones(arrays: dict[str, Any], path: object) -> tuple[Zone, ...]:

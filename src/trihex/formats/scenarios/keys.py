@@ -36,11 +36,17 @@ class AreaTable(Table):
     # How the file at `path` is read; see `formats.options.AreaOptions`.
     cell_size: Annotated[Number, Field(gt=0)] | None = None
     robot_radius: Annotated[Number, Field(ge=0)] | None = None
+    clearance: Annotated[Number, Field(ge=0)] | None = None
     unknown: Annotated[str, choice("it", UNKNOWNS)] | None = None
     threshold: Annotated[Number, Field(ge=0, le=1)] | None = None
     invert: bool | None = None
     resolution: Annotated[Number, Field(gt=0)] | None = None
     align: Annotated[str, choice("it", ALIGNS)] | None = None
+    walls: str | None = None
+    exits: str | None = None
+    rooms: str | None = None
+    unit: str | None = None
+    wall_thickness: Annotated[Number, Field(ge=0)] | None = None
 
 
 class RulesTable(Table):
@@ -82,6 +88,10 @@ def _beside(value: str) -> str:
 _Output = Annotated[str, AfterValidator(_beside)]
 
 
+# Those of [outputs] that are paths.
+OUTPUT_PATHS = ("plan", "summary", "picture", "waypoints")
+
+
 class OutputsTable(Table):
     """[outputs]: what `trihex plan` writes, unless its options say otherwise."""
 
@@ -90,6 +100,8 @@ class OutputsTable(Table):
     picture: _Output | None = None
     waypoints: _Output | None = None
     speed: Annotated[Number, Field(gt=0)] | None = None
+    turn_time: Annotated[Number, Field(ge=0)] | None = None
+    frame_id: str | None = None
 
 
 class ScenarioTable(Table):

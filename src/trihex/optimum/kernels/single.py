@@ -12,12 +12,12 @@ import numpy as np
 from numba import types
 
 from trihex.kernels.signatures import APART, HELPER, OUT_I64, kernel
-from trihex.optimum.kernels.ahead import turn_ahead
-from trihex.optimum.kernels.back import BITS, MOST_TURNS
-from trihex.optimum.kernels.flow_byte import arc_in, arc_out, is_start
+from trihex.optimum.kernels.flow_byte import START, arc_in, arc_out, is_start, with_arc_in, with_arc_out
 from trihex.optimum.kernels.residual import (
     AT,
+    BASE,
     BUDGET_SPENT,
+    COST,
     CURRENT,
     DONE,
     ENDS,
@@ -40,10 +40,8 @@ from trihex.optimum.kernels.residual import (
     OWN,
     PLACE,
     REDUCED,
-    ROOT,
     SEARCH,
     SERVED,
-    SLACK,
     SPARE_ROWS,
     SPENT,
     TOTAL,
@@ -53,12 +51,11 @@ from trihex.optimum.kernels.residual import (
     VISITS,
 )
 
-# In place of the slack the log has the cost beyond the value so far.
-COST = SLACK
+# Bits of the least number of turns in a bound, and the most that it tells.
+BITS = 6
+MOST_TURNS = (1 << BITS) - 1
 # The last list is for all that cost more.
 FURTHER = LISTS - 1
-# Of a search: cost that the first list of those stands for.
-BASE = ROOT
 
 
 class Reach(NamedTuple):
@@ -210,7 +207,7 @@ def _raise_cost(nodes, search, cost_now):
 
 
 @HELPER
-def _begin(robot, nodes, search, ends, state):
+def _begin(robot, layer, nodes, search, ends, state):
     """Begin the search for a robot at its start."""
     own = search.state
     at = ends.start[robot]
@@ -220,13 +217,35 @@ def _begin(robot, nodes, search, ends, state):
     own[CURRENT] = TURN_LISTS
     state[SPENT] = 0
     none = np.int64(0)
-    _offer(Reach(at, at % len(ends.lacks), none, none), NONE, 0, nodes, search, state[LEVEL])
+    _offer(Reach(at, at % len(layer.out), none, none), NONE, 0, nodes, search, state[LEVEL])
+
+
+@HELPER
+def _turn(layer, flow, log, entry):
+    """Let a robot go from the root to an entry."""
+    out = layer.out
+    flow[log[entry, AT]] += 1
+    while log[entry, FROM] >= 0:
+        via = log[entry, VIA]
+        entry = log[entry, FROM]
+        at, node = log[entry, AT], log[entry, NODE]
+        if node >= layer.first_goal:
+            continue
+        if via == OWN:
+            flow[at] = 0
+            continue
+        head = at + out[node, via, OFFSET]
+        flow[at] = with_arc_out(flow[at], via)
+        if out[node, via, OTHER] < layer.first_goal:
+            flow[head] = with_arc_in(flow[head], out[node, via, PLACE])
+    at = log[entry, AT]
+    flow[at] = with_arc_in(flow[at], START - 1)
 
 
 @HELPER
 def _serve(robot, entry, layer, nodes, search, ends, state):
     """Let a robot go to an open destination, the node of an entry."""
-    turn_ahead(layer, nodes.flow, search.log, entry)
+    _turn(layer, nodes.flow, search.log, entry)
     _forget(nodes, search, state[LEVEL])
     state[TOTAL] += ends.value[robot] + state[LEVEL]
     state[LEVEL] = NONE
@@ -248,7 +267,7 @@ def serve_singly(layer, nodes, search, ends, state, budget):
         if own[LOGGED] + layer.into.shape[1] > len(log):
             return LIST_FULL
         if state[LEVEL] == NONE:
-            _begin(robot, nodes, search, ends, state)
+            _begin(robot, layer, nodes, search, ends, state)
             continue
         while own[CURRENT] < TURN_LISTS and heads[own[CURRENT]] == NONE:
             own[CURRENT] += 1
@@ -259,7 +278,7 @@ def serve_singly(layer, nodes, search, ends, state, budget):
             continue
         entry = heads[own[CURRENT]]
         at, node = log[entry, AT], log[entry, NODE]
-        if at + SPARE_ROWS * len(layer.hops) > len(nodes.flow):
+        if at + SPARE_ROWS * len(layer.out) > len(nodes.flow):
             return LAYERS_FULL
         heads[own[CURRENT]] = log[entry, NEXT]
         if _is_past(entry, nodes, log):

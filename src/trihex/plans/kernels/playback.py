@@ -32,23 +32,27 @@ def count_steps(start, actions, cost, waiting_cost, duration, arrived, distance,
         step = 1  # in which the next action begins
         for i in range(actions.first[robot], actions.first[robot + 1]):
             action = actions.action[i]
+            lasts = duration[action]
             to = site
             price = waiting_cost
             if action == WAIT:
                 sums.waiting[step] += 1
             else:
-                for later in range(step, step + duration[action]):
+                sums.moving[step] += 1
+                for later in range(step + 1, step + lasts):
                     sums.moving[later] += 1
                 to = site_after(site, i, actions)
                 price = 0 if action == JUMP else cost[action]
             if arrives:
-                paid = price if duration[action] == 1 else 1  # what lasts longer costs as much as it lasts
-                for later in range(step, step + duration[action]):
-                    sums.spent[later] += paid
+                if lasts == 1:
+                    sums.spent[step] += price
+                else:  # as much as it lasts
+                    for later in range(step, step + lasts):
+                        sums.spent[later] += 1
                 sums.lost[step] += price
                 if distance[site] != NOT_REACHED and distance[to] != NOT_REACHED:
                     sums.lost[step] += distance[to] - distance[site]
             site = to
-            step += duration[action]
+            step += lasts
         if arrives:
             sums.arriving[step - 1] += 1

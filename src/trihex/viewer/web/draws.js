@@ -4,9 +4,9 @@ import { plural } from "./words.js";
 import { button, chosenIn, endRow, grid, note, numberField, row, section, select } from "./controls.js";
 import { arraysOf } from "./documents.js";
 
-// What those see who open the viewer without a file.
-const FIRST = { generator: "rooms", tessellation: "hexagonal", height: 32, width: 48, seed: 1 };
-const FIRST_ROBOTS = 60;
+// What those see who open the viewer without a file, as in site.py: rooms in which queues form, so that plans differ.
+const FIRST = { generator: "rooms", tessellation: "hexagonal", height: 32, width: 48, seed: 7 };
+const FIRST_ROBOTS = 120, FIRST_SEED = 1;
 const EMPTY = "empty"; // a generator that draws nothing
 
 // The free cell nearest to the middle.
@@ -20,7 +20,7 @@ export class Draws {
   constructor(app) {
     this.app = app;
     this.count = numberField("Robots", FIRST_ROBOTS, { min: 0, max: 2097152 });
-    this.seed = numberField("Seed", 1, { min: 0 });
+    this.seed = numberField("Seed", FIRST_SEED, { min: 0 });
     this.text = note();
     this.element = section("Robots", row(this.count, this.seed, button("Scatter", () => this.scatter())), this.text);
   }
@@ -55,8 +55,8 @@ export class Draws {
     if (!answer) return;
     app.take(answer, { isEdit: false });
     app.set({ ...app.doc, destinations: Int32Array.of(middleOf(app.doc)) }, [null, null]);
-    const robots = await this.#robots(FIRST_ROBOTS, FIRST.seed);
-    if (robots) app.set({ ...app.doc, robots, header: { ...app.doc.header, seed: FIRST.seed } }, [null, null]);
+    const robots = await this.#robots(FIRST_ROBOTS, FIRST_SEED);
+    if (robots) app.set({ ...app.doc, robots, header: { ...app.doc.header, seed: FIRST_SEED } }, [null, null]);
   }
 
   async scatter() {

@@ -39,7 +39,8 @@ export function layOut(app) {
 
 function stageOf({ status, questions, stage, readout, clock, planning, guide }) {
   const head = h("div", { class: "head" }, status.element, questions.element);
-  const under = h("div", { class: "under" }, readout.element, stage.legend.element, stage.zoomButtons);
+  const under = h("div", { class: "under" }, readout.element,
+    h("div", { class: "beside" }, stage.legend.element, stage.zoomButtons));
   if (planning) clock.element.prepend(planning.button);
   return h("section", { class: "stage", "aria-label": "Picture" }, head,
     h("div", { class: "view" }, stage.element, guide?.element), under, clock.element);

@@ -5,7 +5,7 @@ import { button, chosenIn, grid, inner, labelled, note, row, section, select } f
 import { arraysOf } from "./documents.js";
 import { runOf } from "./runs.js";
 
-const SAME_CELLS = "the same cells";
+const SAME_CELLS = "same cells";
 
 // A field for an option: a menu where there are choices, each with a line.
 function optionField(name, value, hints = {}) {
@@ -123,7 +123,9 @@ export class Planning {
     app.panel.reveal(app.results.element);
     this.bound();
     const { summary } = run;
-    if (run === app.runs[which]) app.say(this.wordsOf(summary), summary.conflicts > 0);
+    if (run !== app.runs[which]) return;
+    const words = which && !summary.conflicts ? `${app.results.verdict} Press Play.` : this.wordsOf(summary);
+    app.say(words, summary.conflicts > 0);
   }
 
   #request(which) {
@@ -145,7 +147,7 @@ export class Planning {
   async bound() {
     const { app } = this;
     for (const run of app.runs) {
-      if (!run || run.summary.optimal || run.isBounding) continue;
+      if (!run?.plan || run.summary.optimal || run.isBounding) continue; // a run that is over has no name
       run.isBounding = true;
       try {
         const { header } = await app.host.ask({ op: "bound", plan: run.plan });

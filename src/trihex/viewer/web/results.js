@@ -1,9 +1,9 @@
 // Results: the numbers of plans, or of a run that is under way.
 
-import { h, number, percent, title } from "./words.js";
+import { h, number, percent, secondsOf, title } from "./words.js";
 import { check, note, section } from "./controls.js";
 import { Chart } from "./chart.js";
-import { OF_LIVE, OF_PLAN, UNITS } from "./sentences.js";
+import { OF_BOUNDS, OF_LIVE, OF_PLAN, UNITS } from "./sentences.js";
 
 const SO_FAR = "The time that robots have used until this step, and the least that the total can still become: that " +
   "time, and the shortest way of each robot from where it is.";
@@ -16,28 +16,33 @@ function gapOf({ gap, lower_bound_name: bound }) {
   return bound === "optimum" ? percent(gap) : `at most ${percent(gap)}`;
 }
 
-const secondsIn = (seconds) => (seconds < 100 ? `${Number(seconds.toPrecision(2))} s` : `${number(seconds / 60)} min`);
-
 // What the unit of all times is.
 function unitsOf({ summary: { waiting_cost: wait }, edge_cost: edge }) {
   return `${UNITS} ${number(edge)}, a wait ${number(wait)}. Point at a number to read what it means.`;
 }
 
-// What a row is called, and what it says of the summary of a plan.
+const BOUND = "Lower bound";
+
+// What a row is called, of what it tells, and what it says of the summary of a plan or a run.
 const ROWS = [
-  ["Total time", (summary) => number(summary.total_time)],
-  ["Lower bound", (summary) => `${number(summary.lower_bound)} (${summary.lower_bound_name})`],
-  ["Gap to the optimum", gapOf],
-  ["Steps", ({ steps }, { seconds_per_step: each }) =>
-    `${number(steps)}${each ? ` (${secondsIn(steps * each)} at 1 m/s)` : ""}`],
-  ["Moves d", (summary) => number(summary.total_distance)],
-  ["Waiting w", (summary) => number(summary.total_waiting)],
-  ["Longest t", (summary) => number(summary.longest_time)],
-  ["Arrived", (summary) => `${number(summary.arrived)} of ${number(summary.robots)}`],
-  ["Conflicts", (summary) => (summary.conflicts ? number(summary.conflicts) : "none")],
-  ["Moves past corners", ({ corner_moves: moves }) => (moves ? number(moves) : "none")],
-  ["Planned in", ({ seconds }) => (seconds.plan === null ? "–" : `${seconds.plan.toPrecision(2)} s`)],
+  ["Total time", "total_time", (summary) => number(summary.total_time)],
+  ["With full knowledge, no events", "reference_time", (summary) => number(summary.reference_time)],
+  ["Price", "price", ({ price }) => (price === null ? "–" : percent(price))],
+  [BOUND, "lower_bound", (summary) => `${number(summary.lower_bound)} (${summary.lower_bound_name})`],
+  ["Gap to the optimum", "total_distance", gapOf],
+  ["Steps", "steps", (summary) => number(summary.steps)],
+  ["Last arrival", "last_arrival_seconds", (summary) => secondsOf(summary.last_arrival_seconds)],
+  ["Moves d", "total_distance", (summary) => number(summary.total_distance)],
+  ["Waiting w", "total_waiting", (summary) => number(summary.total_waiting)],
+  ["Longest t", "longest_time", (summary) => number(summary.longest_time)],
+  ["Arrived", "arrived", (summary) => `${number(summary.arrived)} of ${number(summary.robots)}`],
+  ["Events", "events", (summary) => number(summary.events)],
+  ["Conflicts", "conflicts", (summary) => (summary.conflicts ? number(summary.conflicts) : "none")],
+  ["Moves past corners", "corner_moves", ({ corner_moves: moves }) => (moves ? number(moves) : "none")],
+  ["Planned in", "seconds", ({ seconds }) => (seconds.plan === null ? "–" : `${seconds.plan.toPrecision(2)} s`)],
 ];
+
+const has = (summary, key) => summary[key] !== undefined && (summary[key] !== null || key === "price");
 
 function rowsOfLive({ last, summary, known }) {
   const [now, median, worst] = last.milliseconds.map((value) => value.toFixed(1));
@@ -89,13 +94,16 @@ export class Results {
     const name = ({ summary: { planner, tessellation } }) => `${planner || "plan"}` +
       `${runs.length > 1 && tessellation !== this.app.doc.header.tessellation ? ` (${tessellation})` : ""}`;
     const heads = runs.map((run, i) => h("th", { scope: "col", class: `run${i}` }, name(run)));
-    const lines = ROWS.map(([label, of]) => h("tr", { title: OF_PLAN[label] }, h("th", { scope: "row" }, label),
-      runs.map((run) => h("td", {}, of(run.summary, run)))));
+    const rows = ROWS.filter(([, key]) => runs.some(({ summary }) => has(summary, key)));
+    const lines = rows.map(([label, key, of]) => h("tr", { title: OF_PLAN[label] }, h("th", { scope: "row" }, label),
+      runs.map(({ summary }) => h("td", { title: label === BOUND && OF_BOUNDS[summary.lower_bound_name] },
+        has(summary, key) ? of(summary) : "–"))));
     const conflicts = runs.flatMap((run) => run.conflicts).slice(0, 5).map(({ step, text }) => h("li", {},
       h("button", { type: "button", class: "link", onclick: () => this.app.clock.seek(step - 1) }, text)));
     this.table.replaceChildren(...[
       h("table", {}, h("thead", {}, h("tr", {}, h("td"), heads)), h("tbody", {}, lines)),
-      note(unitsOf(runs[0])), this.#verdict(runs), conflicts.length ? h("ul", { class: "conflicts" }, conflicts) : null,
+      note(unitsOf(runs[0])), this.verdict ? h("p", { class: "verdict" }, this.verdict) : null,
+      conflicts.length ? h("ul", { class: "conflicts" }, conflicts) : null,
     ].filter(Boolean));
     this.chart.draw(runs.map(({ playback }) => playback.curves));
   }
@@ -109,15 +117,15 @@ export class Results {
   }
 
   // One sentence on what two plans differ in.
-  #verdict(runs) {
-    if (runs.length < 2) return null;
+  get verdict() {
+    const runs = this.#runs;
+    if (runs.length < 2) return "";
     const [one, two] = runs.map((run) => run.summary), isSame = one.tessellation === two.tessellation;
     const share = two.total_time ? one.total_time / two.total_time - 1 : 0;
     const nameIn = ({ planner, tessellation }) => `${planner}${isSame ? "" : ` on ${tessellation} cells`}`;
-    const first = title(nameIn(one)), words = Math.abs(share) < 5e-5
-      ? `${first} and ${nameIn(two)} take the same total time.`
-      : `${first} takes ${percent(Math.abs(share))} ${share > 0 ? "more" : "less"} time than ${nameIn(two)}.`;
-    return h("p", { class: "verdict" }, words);
+    const first = title(nameIn(one));
+    if (Math.abs(share) < 5e-5) return `${first} and ${nameIn(two)} take the same total time.`;
+    return `${first} takes ${percent(Math.abs(share))} ${share > 0 ? "more" : "less"} time than ${nameIn(two)}.`;
   }
 
   #showLive(live) {
@@ -145,9 +153,10 @@ export class Results {
   }
 
   #spentIn({ playback: { curves, steps }, summary: { total_time: total } }, step) {
-    const now = Math.min(step, steps), spent = curves.spent[now], least = curves.least_total[now];
+    const now = Math.min(step, steps), spent = curves.spent[now], least = curves.least_total?.[now];
     if (now === steps) return `All ${number(total)} time units are used.`;
     const used = `${number(spent)} of ${number(total)} time units used`;
+    if (least === undefined) return `${used}.`; // in a run the world may change
     if (least === total) return `${used}; nobody waits or makes way any more.`;
     return `${used}. If nobody had to wait or make way from here on, it would be ${number(least)} in the end.`;
   }

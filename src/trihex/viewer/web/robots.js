@@ -4,6 +4,7 @@ import { HIDDEN } from "./playback.js";
 import { packed, mix } from "./colours.js";
 
 const MOST_SPRITES = 400; // that a pane keeps
+const SMALL = 14; // device pixels an edge step
 const RIM = { dark: [12, 12, 14], light: [255, 255, 255] };
 
 const rimOf = (pane) => packed(pane.options.dark ? RIM.dark : RIM.light);
@@ -23,7 +24,8 @@ export function pointOfRobot({ robots: { x0, y0, x1, y1, bx, by }, view: { scale
 
 export function plotRobots(pane, fraction) {
   const isNarrow = pane.doc.header.tessellation === "triangular";
-  const radius = Math.max(1, pane.view.scale * (isNarrow ? 0.3 : 0.36));
+  const { scale } = pane.view, share = scale < SMALL ? 0.44 : isNarrow ? 0.3 : 0.36; // small ones fill their cell
+  const radius = Math.max(1, scale * share);
   if (radius < 2) plotDots(pane, fraction, radius < 1.3 ? 2 : 3);
   else plotDiscs(pane, fraction, radius);
 }

@@ -5,13 +5,25 @@ export const OF_PLAN = {
   "Lower bound": "No plan for these robots takes less total time; how this is known stands in brackets.",
   "Gap to the optimum": "How far the total time lies above the least that is possible, as far as that is known.",
   "Steps": "Time steps until the last robot arrives; in each, every robot makes one move or waits.",
+  "Last arrival": "Seconds until the last robot arrives, at 1 metre a second unless another speed was told.",
   "Moves d": "What all moves cost together: 10 over an edge, 14 through a corner, unless the rules say otherwise.",
   "Waiting w": "What all waits cost together: each robot that stands still in a step adds the waiting cost.",
   "Longest t": "The time of the robot that takes longest: its moves and its waits, in time units.",
   "Arrived": "Robots that reach a destination.",
+  "With full knowledge, no events": "Total time of a plan for robots that know everything, where nothing changes.",
+  "Price": "How much more time this run took than that plan: what not knowing and the changes cost.",
+  "Events": "How often a wall, a destination or a robot came, went or failed during the run.",
   "Conflicts": "Places where two robots would meet, found by a judge who knows no planner.",
   "Moves past corners": "Moves through a corner at which a wall or the border stands; Rules can forbid them.",
   "Planned in": "Seconds that the planner took on this computer.",
+};
+
+// How a lower bound is known, by its name.
+export const OF_BOUNDS = {
+  distance: "distance: as if nobody were in the way of anybody",
+  slot: "slot: so many robots at most enter the destinations in a step",
+  cut: "cut: so many robots at most pass the narrow places in a step",
+  optimum: "optimum: a plan that takes no more has been found",
 };
 
 export const OF_LIVE = {

@@ -63,8 +63,16 @@ export class Stage {
     this.panes.forEach((pane, i) => {
       if (i && !runs[1]) return;
       runs[i]?.playback.seek(step);
+      this.#showStep(pane, runs[i]?.playback.worlds?.at(step));
       pane.draw(step >= (runs[i]?.playback.steps ?? 0) ? 0 : clock.at - step);
     });
+  }
+
+  // The world of a run as it was in the step that is shown.
+  #showStep(pane, world) {
+    if (!world || pane.world === world) return;
+    pane.take({ world, doc: world.doc, known: world.known });
+    pane.changed("base");
   }
 
   #settle() {
@@ -126,9 +134,10 @@ export class Stage {
     const { runs: [run], doc, fields, growth, live, field } = this.app, [pane] = this.panes;
     const distance = fields?.distance, values = growth ? growth.values : distance ?? null;
     pane.take({
-      values: field.isShown ? values : null,
+      values: field.isShown && !run?.playback.worlds ? values : null, // the field of a run changes with its world
       directions: growth ? null : fields?.directions ?? null,
       known: live?.known ?? null,
+      world: null,
     });
     this.#showPane(0, run, !!growth, field.farthest(distance ?? pane.values));
     if (run) pane.show(run.doc, run.playback);
@@ -149,7 +158,8 @@ export class Stage {
 
   #showBeside() {
     const { runs: [, run], field } = this.app, [, pane] = this.panes, { distance } = run.playback;
-    pane.take({ values: field.isShown ? distance : null });
+    const isStill = field.isShown && !run.playback.worlds;
+    pane.take({ values: isStill ? distance : null, known: null, world: null });
     this.#showPane(1, run, false, field.farthest(distance));
     pane.show(run.doc, run.playback);
   }
@@ -171,8 +181,16 @@ export class Stage {
     const area = `${title(tessellation)} area of ${doc.width} by ${doc.height} cells, ${things}`;
     const use = canEdit && !i ? ", Enter uses the tool" : "";
     pane.canvas.setAttribute("aria-label", `${area}. Arrow keys move the cursor${use}.`);
-    this.captions[i].textContent = run && runs[1] ? `${run.summary.planner} · ${tessellation} · ` +
-      `total time ${number(run.summary.total_time)} · ${gapWords(run.summary)}` : "";
+    this.#caption(i, run && runs[1] ? run.summary : null);
+  }
+
+  // What stands above a plan that is compared.
+  #caption(i, summary) {
+    const { runs } = this.app, isSame = runs[0]?.summary.tessellation === runs[1]?.summary.tessellation;
+    const words = summary ? [summary.planner || "plan", isSame ? "" : summary.tessellation,
+      `total time ${number(summary.total_time)}`, gapWords(summary)].filter(Boolean).join(" · ") : "";
+    this.captions[i].textContent = words.replace(/(\d) (?=\d)/g, "$1\u00a0"); // a number is not parted
+    this.captions[i].setAttribute("title", words);
   }
 
   #still(doc, distance) {

@@ -1,0 +1,134 @@
+"""What rises: all that robots without path can reach along tight arcs.
+
+The method of Dial (1969): sides are filed for the rise at which an arc from those that rise becomes tight.
+"""
+
+from trihex.kernels.signatures import HELPER
+from trihex.optimum.kernels.flow_byte import START, arc_in, arc_out
+from trihex.optimum.kernels.prices import (
+    ARCS,
+    ARRIVALS,
+    BITS,
+    ENTERING,
+    FILED,
+    FREE,
+    LEAVING,
+    LISTED,
+    RISE,
+    RISES,
+    price_of,
+    put_word,
+    word_of,
+)
+from trihex.optimum.kernels.residual import NONE, OFFSET, OTHER, PLACE, REDUCED
+
+
+@HELPER
+def begin_to_rise(side, nodes, search):
+    """List a side that rises from now on."""
+    state = search.state
+    word = word_of(side, nodes)
+    if not word & RISES:
+        put_word(side, (((word >> BITS) - state[RISE]) << BITS) | RISES, nodes)
+        search.sides[state[LISTED]] = side
+        state[LISTED] += 1
+
+
+@HELPER
+def file_for(what, rise, search):
+    """File a side, or an arc to a destination as -1 less its number, for a rise to come; early if it is far off."""
+    state, filed = search.state, search.filed
+    entry = state[FREE]
+    if entry == NONE:
+        entry = state[FILED]
+        state[FILED] += 1
+    else:
+        state[FREE] = filed[entry, 1]
+    which = min(rise, state[RISE] + len(search.heads) - 1) % len(search.heads)
+    filed[entry, 0], filed[entry, 1] = what, search.heads[which]
+    search.heads[which] = entry
+
+
+@HELPER
+def _reach(side, cost, price, nodes, search):
+    """Let a side rise, at the end of an arc from one that rises, when that is tight."""
+    word, rise = word_of(side, nodes), search.state[RISE]
+    if word & RISES:
+        return
+    slack = cost + price_of(word, rise) - price
+    if slack <= 0:
+        begin_to_rise(side, nodes, search)
+    else:
+        file_for(side, rise + slack, search)
+
+
+@HELPER
+def expect_arrival(at, place, slack, search):
+    """Note an arc to an open destination, now or when it is tight."""
+    state = search.state
+    if slack <= 0:
+        search.arrivals[state[ARRIVALS]] = at * ARCS + place
+        state[ARRIVALS] += 1
+    else:
+        file_for(-1 - (at * ARCS + place), state[RISE] + slack, search)
+
+
+@HELPER
+def _enter(at, node, price, graph, nodes, search):
+    """Reach what comes before a node that carries flow, or before a destination that is full."""
+    into = graph.into
+    if node < graph.first_goal:
+        j = arc_in(nodes.flow[at])
+        if j != START - 1:
+            _reach((at + into[node, j, OFFSET]) * 2 + LEAVING, -into[node, j, REDUCED], price, nodes, search)
+        return
+    for j in range(into.shape[1]):
+        before = at + into[node, j, OFFSET]
+        if before == at:
+            break
+        if arc_out(nodes.flow[before]) == into[node, j, PLACE]:
+            _reach(before * 2 + LEAVING, -into[node, j, REDUCED], price, nodes, search)
+
+
+@HELPER
+def reach_from(side, graph, nodes, search):
+    """Let rise, now or later, what can be reached from a side."""
+    out, at = graph.out, side >> 1
+    node, flow = at % len(out), nodes.flow[at]
+    price = price_of(word_of(side, nodes), search.state[RISE])
+    if side & 1 == ENTERING and (flow != 0 or node >= graph.first_goal):
+        _enter(at, node, price, graph, nodes, search)
+        return
+    if side & LEAVING and arc_in(flow) != START - 1:
+        _reach(at * 2 + ENTERING, 0, price, nodes, search)
+    taken = arc_out(flow)
+    for k in range(out.shape[1]):
+        head = at + out[node, k, OFFSET]
+        if head == at:
+            break
+        if k == taken:
+            continue
+        if out[node, k, OTHER] >= graph.first_goal and nodes.flow[head] < graph.capacity:
+            expect_arrival(at, k, out[node, k, REDUCED] - price, search)
+        else:
+            _reach(head * 2 + ENTERING, out[node, k, REDUCED], price, nodes, search)
+
+
+@HELPER
+def raise_prices(nodes, search):
+    """Raise prices by one unit, and let rise what was filed for that."""
+    state, filed = search.state, search.filed
+    state[RISE] += 1
+    which = state[RISE] % len(search.heads)
+    entry = search.heads[which]
+    search.heads[which] = NONE
+    while entry != NONE:
+        what, following = filed[entry, 0], filed[entry, 1]
+        if what >= 0:
+            begin_to_rise(what, nodes, search)
+        else:
+            search.arrivals[state[ARRIVALS]] = -1 - what
+            state[ARRIVALS] += 1
+        filed[entry, 1] = state[FREE]
+        state[FREE] = entry
+        entry = following

@@ -1,0 +1,122 @@
+"""Priced flow: the flow of least cost where robots crowd and moves differ in cost, from prices that rise."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trihex.memory import limit_or_default
+from trihex.optimum.flow import Flow
+from trihex.optimum.network import Network
+from trihex.optimum.workspace import SPARE_LAYERS, check_memory, least_layers, longer, start_nodes
+
+# Bytes for each node of a layer: flow and two prices.
+_BYTES_PER_NODE = 9
+# Sides of nodes that are seen between two looks at the keyboard: some 0.1 s.
+_BUDGET = 500_000
+# Length of the lists at first.
+_LIST = 1 << 16
+# The lists that grow.
+_LISTS = ("sides", "filed", "arrivals", "stack", "seen")
+# For how many units to come it is told apart what is tight when.
+_RISES = 1 << 12
+
+
+def make_flow_at_prices(
+    network: Network,
+    cells: NDArray[np.int64],
+    *,
+    progress: Callable[[int, int], None] | None = None,
+    memory_limit: int | None = None,
+) -> Flow:
+    """Find paths of least total cost; for parameters and errors see `trihex.optimum.make_flow_singly`."""
+    from trihex.optimum.kernels.prices import SERVED, TOTAL
+    from trihex.optimum.kernels.residual import DONE
+    from trihex.optimum.kernels.serving import serve_at_prices
+
+    work = _PricedWork(network, cells, memory_limit)
+    status = None
+    while status != DONE:
+        status = serve_at_prices(work.graph, work.nodes, work.search, _BUDGET)
+        if progress:
+            progress(int(work.search.state[SERVED]), cells.size)
+        work.make_room(status)
+    total = int(work.search.state[TOTAL]) + int(network.value[cells].sum(dtype=np.int64))
+    return Flow(network, work.search.start, work.nodes.flow, total * network.unit)
+
+
+class _PricedWork:
+    """What prices and paths are found in; it grows as they need room.
+
+    Its parts are tuples for the kernels, see `trihex.optimum.kernels.prices`.
+    """
+
+    def __init__(self, network: Network, cells: NDArray[np.int64], memory_limit: int | None) -> None:
+        from trihex.kernels.signatures import given
+        from trihex.optimum.kernels import prices as kernels
+        from trihex.optimum.kernels.flow_byte import START
+
+        self.network, self.cells = network, cells
+        self.limit = limit_or_default(memory_limit)
+        self.layers = least_layers(network, cells) + SPARE_LAYERS
+        self._check_memory(self.layers)
+        size = self.layers * network.node_count
+        self.graph = given(
+            kernels.PricedGraph,
+            out=network.out_arcs,
+            into=network.in_arcs,
+            first_goal=network.first_destination,
+            capacity=network.capacity,
+        )
+        self.nodes = kernels.PricedNodes(*(np.zeros(size, dtype) for dtype in (np.uint8, np.int32, np.int32)))
+        self.search = _make_search(start_nodes(network, cells))
+        self.nodes.flow[self.search.start] = START << 4
+        self.nodes.leaving[self.search.start] = kernels.RISES
+
+    def make_room(self, status: int) -> None:
+        """Make room for what a search ended for; refuse it if there is none."""
+        from trihex.optimum.kernels import residual as kernels
+        from trihex.optimum.kernels.prices import PricedNodes
+
+        if status == kernels.LIST_FULL:
+            lists = {name: getattr(self.search, name) for name in _LISTS}
+            self._check_memory(self.layers, 3 * sum(array.nbytes for array in lists.values()))
+            longer_lists = {name: np.concatenate([array, np.empty_like(array)]) for name, array in lists.items()}
+            self.search = self.search._replace(**longer_lists)
+        elif status == kernels.LAYERS_FULL:
+            more = max(8, self.layers // 4)
+            self._check_memory(self.layers + more)
+            added = more * self.network.node_count
+            self.nodes = PricedNodes(*(longer(array, added) for array in self.nodes))
+            self.layers += more
+
+    def _check_memory(self, layers: int, list_bytes: int = 0) -> None:
+        need = layers * self.network.node_count * _BYTES_PER_NODE + list_bytes
+        check_memory(self.network, self.cells, layers, need, self.limit)
+
+
+def _make_search(start: NDArray[np.int64]) -> Any:
+    """Return a search in which the robots that start there, and nothing else, begin to rise."""
+    from trihex.kernels.signatures import given
+    from trihex.optimum.kernels import prices as kernels
+    from trihex.optimum.kernels.residual import NONE
+
+    length = max(_LIST, start.size)
+    state = np.zeros(kernels.STATE_SIZE, dtype=np.int64)
+    state[kernels.LISTED], state[kernels.FREE] = start.size, NONE
+    search = given(
+        kernels.PricedSearch,
+        start=start,
+        sides=np.empty(4 * length, dtype=np.int64),
+        filed=np.empty((4 * length, 2), dtype=np.int64),
+        heads=np.full(_RISES, NONE, dtype=np.int64),
+        arrivals=np.empty(4 * length, dtype=np.int64),
+        stack=np.empty((length, 3), dtype=np.int64),
+        seen=np.empty(length, dtype=np.int64),
+        state=state,
+    )
+    search.sides[: start.size] = start * 2 + kernels.LEAVING
+    return search
