@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from trihex.errors import TooLargeError
 from trihex.fields import make_n_scheme
 from trihex.formats import draft_of
-from trihex.kernels.codes import LATE, WAIT
+from trihex.kernels.codes import LATE, UNDERWAY, WAIT
 from trihex.running import GOING, LEFT, Run, RunReport
 from trihex.viewer.bundle import Bundle
 from trihex.viewer.document import document_of
@@ -42,10 +42,11 @@ def show_run(report: RunReport) -> Bundle:
         **told_layout(scenario),
         "worlds": _worlds(run),
     }
-    first = np.concatenate([[0], np.cumsum(run.last_seen_of_robot - run.joined)])
+    begins = _begins(run)
+    first = np.concatenate([[0], np.cumsum(begins.sum(axis=0))])
     arrays |= {
         **_curves(run),
-        "actions": _by_robot(run),
+        "actions": run.actions.T[begins.T],  # those of one robot after those of the other
         "first_action": first.astype(np.int32),
         "joined": run.joined.astype(np.int32),
         "has_arrived": run.arrived.astype(np.uint8),
@@ -60,11 +61,10 @@ def show_run(report: RunReport) -> Bundle:
     return Bundle(header, arrays)
 
 
-def _by_robot(run: Run) -> NDArray[np.uint8]:
-    """Return the actions of one robot after those of the other, without the steps in which it was not there."""
+def _begins(run: Run) -> NDArray[np.bool_]:
+    """Tell in which steps each robot was there and began an action, shape (steps, robots)."""
     step = np.arange(1, run.steps + 1)[:, None]
-    is_there = (step > run.joined) & (step <= run.last_seen_of_robot)
-    return np.asarray(run.actions.T[is_there.T])
+    return np.asarray((step > run.joined) & (step <= run.last_seen_of_robot) & (run.actions != UNDERWAY))
 
 
 def _worlds(run: Run) -> list[dict[str, Any]]:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from trihex.areas import Tessellation
-from trihex.kernels.codes import JUMP, LATE, WAIT
+from trihex.kernels.codes import JUMP, LATE, UNDERWAY, WAIT
 from trihex.plans import Motion, Plan, rows_of_actions, rows_of_motion
 
 Ints = NDArray[np.int64]
@@ -47,9 +48,12 @@ def columns_of(motion: Motion) -> Columns:
         is_action[first] = False
         action[is_action] = motion.actions
     else:
-        for number in range(1, motion.steps + 1):
+        for number, ending in enumerate(_actions_that_end(motion), 1):
             there = (motion.joined < number) & (motion.joined + length > number)
-            action[(first - motion.joined)[there] + number] = motion.actions_in(number)[there]
+            action[(first - motion.joined)[there] + number] = ending[there]
+        has_ended = action != UNDERWAY
+        robot, step, cell, action = (column[has_ended] for column in (robot, step, cell, action))
+        first = np.searchsorted(robot, np.arange(length.size))
     words = words_of_actions(tessellation) + ["late"] * (not isinstance(motion, Plan))
     start, wait, jump, late = (count + len(words_of_actions(tessellation)) for count in (-3, -2, -1, 0))
     word_of_action = np.arange(WAIT + 1)
@@ -65,3 +69,16 @@ def columns_of(motion: Motion) -> Columns:
     total = np.cumsum(cost)
     x, y = area.cell_to_xy(cell)
     return Columns(robot, step, x, y, word, total - total[first][robot], words)
+
+
+def _actions_that_end(motion: Motion) -> Iterator[NDArray[np.uint8]]:
+    """Yield for step 1, 2, ... the action of each robot that ends in it, `UNDERWAY` where a move goes on."""
+    duration = motion.scenario.duration_of_direction
+    heading, due = np.full(motion.joined.size, WAIT, dtype=np.uint8), np.zeros(motion.joined.size, dtype=np.int64)
+    for step in range(1, motion.steps + 1):
+        action = motion.actions_in(step).copy()
+        begins = np.flatnonzero(action < UNDERWAY)
+        heading[begins], due[begins] = action[begins], step - 1 + duration[action[begins]]
+        np.copyto(action, UNDERWAY, where=due > step)
+        np.copyto(action, heading, where=due == step)
+        yield action
