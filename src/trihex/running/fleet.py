@@ -159,12 +159,12 @@ class Fleet:
         Who leaves owns nothing any more; who breaks down is taken to end its move.
         """
         self.check_going(robot)
+        self._vacate(np.array([robot]))
         if state == LEFT:
             self._release(robot)
         elif self.is_under_way[robot]:
             self.claims.left_until[self.site[robot]] = 2 * self.due[robot]
         self.state[robot] = state
-        self.occupied[self.site[robot]] = 0
 
     def cells_blocked_by(self, robot: int) -> NDArray[np.int64]:
         """Return the cells that a robot blocks if it breaks down now; raises ExecutionError if it is not going.
@@ -202,7 +202,7 @@ class Fleet:
         taken = np.unique(np.append(self.layout.site_to_cell(sites), others[others >= 0]))
         if blocked[sites].any() or taken.size < sites.size + np.unique(others[others >= 0]).size:
             raise ExecutionError("robots must be on distinct free cells")
-        self.occupied[self.site[robots]] = 0
+        self._vacate(robots)
         for robot in robots:
             self._release(int(robot))
         self.site[robots], self.came_from[robots] = sites, -1
@@ -243,7 +243,11 @@ class Fleet:
         here = robots[is_here & (self.due[robots] <= self.tick)]
         if here.size:
             self.state[here] = ARRIVED
-            self.occupied[self.site[here]] = 0
+            self._vacate(here)
+
+    def _vacate(self, robots: NDArray[np.integer]) -> None:
+        """Let robots occupy their cells no longer; in that of one that enters a destination others may be by now."""
+        self.occupied[self.site[robots[~self.enters[robots]]]] = 0
 
     def is_able(self, distance_of_site: NDArray[np.int32]) -> NDArray[np.bool_]:
         """Return whether each robot can arrive, or is on its way into what was a destination."""
