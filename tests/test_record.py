@@ -45,7 +45,7 @@ def test_the_line_says_what_one_wants_to_know(records):
     assert ", gap " in text["Report"]
     assert text["Report"].endswith(" %, 0 conflicts)")
     assert text["Audit"] == "Audit(0 conflicts)"
-    assert text["Tessellation"] == "Tessellation(name='hexagonal', neighbourhood='full', costs='paper')"
+    assert text["Tessellation"] == "Tessellation(name='hexagonal', neighbourhood='full', costs='paper', clock='steps')"
     assert "5 of 5 robots arrived" in text["Run"]
     assert text["Comparison"] == "Comparison(1 scenario, 1 plan by greedy)"
 
