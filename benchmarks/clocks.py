@@ -3,7 +3,7 @@
 ``python -m benchmarks clocks`` plans for 24 scenarios of each tessellation, six on each of four kinds of areas, by the
 clocks "steps" and "costs", and prints the seconds until robots arrive, on average and the last of them; cells are 1
 metre apart, robots go 1 metre a second. With "forbid" nobody follows at once. ``--maps FOLDER`` adds one scenario for
-each of its MovingAI maps.
+each of its MovingAI maps; ``--robots`` says how many there are, at most half of the free cells.
 """
 
 import argparse
@@ -17,7 +17,7 @@ import trihex as th
 from trihex.areas import GENERATORS
 
 KINDS = ("random", "rooms", "caves", "warehouse")
-SIDE, ROBOTS, SEEDS = 48, 150, 6
+SIDE, SEEDS = 48, 6
 
 
 def seconds_of(scenario: th.Scenario) -> tuple[float, float]:
@@ -38,14 +38,14 @@ def areas(name: str, maps: Path | None) -> Iterator[tuple[th.Area, int]]:
         yield th.read_area(path, tessellation), seed
 
 
-def scenario_on(area: th.Area, seed: int) -> th.Scenario:
+def scenario_on(area: th.Area, seed: int, count: int) -> th.Scenario:
     """Return a destination that half of the free cells reach at least, and robots that can reach it."""
     while True:
-        goal, *robots = th.random_robots(area, min(4 * ROBOTS, area.free_count // 2), seed=seed).tolist()
+        goal, *robots = th.random_robots(area, min(4 * count, area.free_count // 2), seed=seed).tolist()
         lone = th.Scenario(area, np.array([goal]), np.array(robots))
         cut_off = set(th.make_n_scheme(lone).unreachable_robots.tolist())
         if len(cut_off) < len(robots) / 2:
-            return lone.with_robots([robot for i, robot in enumerate(robots) if i not in cut_off][:ROBOTS])
+            return lone.with_robots([robot for i, robot in enumerate(robots) if i not in cut_off][:count])
         seed += 1000
 
 
@@ -53,9 +53,10 @@ def main(options: list[str]) -> None:
     """Print a line for each tessellation and rule."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks clocks", description=__doc__)
     parser.add_argument("--maps", type=Path, help="a folder with MovingAI maps")
-    maps = parser.parse_args(options).maps
+    parser.add_argument("--robots", type=int, default=150)
+    chosen = parser.parse_args(options)
     for name in ("triangular", "square"):
-        cases = [scenario_on(*given) for given in areas(name, maps)]
+        cases = [scenario_on(area, seed, chosen.robots) for area, seed in areas(name, chosen.maps)]
         for following in ("allow", "forbid"):
             rules = [{"clock": clock, "following": following} for clock in ("steps", "costs")]
             found = np.array([

@@ -167,8 +167,40 @@ def test_clearance_is_kept_beyond_the_radius(house, tmp_path):
     assert done.output.endswith("written: a.toml\n")
     run("convert", "house.yaml", "b.toml", *SIZE)
     assert (tmp_path / "a.toml").read_text() == (tmp_path / "b.toml").read_text()
-    small = run("plan", "house.yaml", *keep[2:], "--cell-size", "0.3", *PLACES, "--robots", 2)
+    small = run("plan", "house.yaml", *keep[2:], "--cell-size", "0.3", "--following", "allow", *PLACES, "--robots", 2)
     assert small.exit_code == 2 and "cell_size must be at least 0.4 metres" in small.output
     assert run("plan", "house.yaml", *SIZE, "--clearance", "-1", *PLACES).output.startswith(
         "trihex: error: --clearance must be a number above 0, not '-1'"
     )
+
+
+def test_all_that_is_written_of_a_plan_is_in_ticks_by_the_clock_costs(house, tmp_path):
+    """Maps, exits and seconds come out; what robots that never stand all at once cannot do is refused in a line."""
+    options = ["house.yaml", "--cell-size", "0.5", "--tessellation", "square", "--clock", "costs", *PLACES]
+    options += ["--robots", 20]
+    more = [
+        "--waiting",
+        "w.npy",
+        "--density",
+        "d.png",
+        "--arrivals",
+        "e.csv",
+        "--waypoints",
+        "w.csv",
+        "--picture",
+        "p.png",
+    ]
+    done = run("plan", *options, *more, "--out", "p.csv", "--summary", "s.json")
+    assert done.exit_code == 0, done.output
+    summary, exits = json.loads((tmp_path / "s.json").read_text()), (tmp_path / "e.csv").read_text().splitlines()
+    assert "a tick lasts 0.0714 s" in done.output and len(exits) == summary["steps"] + 2
+    assert summary["last_arrival_seconds"] == pytest.approx(summary["steps"] * summary["step_seconds"])
+    assert np.load("w.npy").sum() == (tmp_path / "p.csv").read_text().count(",wait,") == summary["total_waiting"]
+    for refused, message in (
+        ("--straight", "plan must have moves of one step"),
+        ("--turn-time=1", "turn_time must be 0"),
+    ):
+        done = run("plan", *options, refused)
+        assert done.exit_code == 2 and message in done.output and len(done.output.strip().splitlines()) <= 3, (
+            done.output
+        )

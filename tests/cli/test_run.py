@@ -172,7 +172,7 @@ def test_what_happened_is_written_as_a_plan_would_be(folder):
 def test_maps_and_exits_are_written(folder):
     """Of a plan and of a run: arrays and pictures of waiting and density, N(t) by exit beside the most possible."""
     (folder / "events.csv").write_text("step,event,robot,steps\n1,late,0,2\n")
-    maps = ("--waiting", "w.npy", "--density", "d.npy", "--exits", "n.csv", "--speed", "0.5")
+    maps = ("--waiting", "w.npy", "--density", "d.npy", "--arrivals", "n.csv", "--speed", "0.5")
     for command in (["run", in_metres(folder), "--events", "events.csv"], ["plan", in_metres(folder)]):
         assert main_run(*command, *maps).stdout.splitlines()[-1] == "written: w.npy, d.npy, n.csv"
         assert np.load("w.npy").sum() == (2 if command[0] == "run" else 0) and np.load("d.npy").shape == (3, 7)
@@ -180,7 +180,7 @@ def test_maps_and_exits_are_written(folder):
         assert lines[0] == 'step,seconds,arrived,most (optimum),"(0, 0) at (0.288675, -0.25) metres"'
         rows = [[float(value) for value in line.split(",")] for line in lines[1:]]
         assert rows[-1][1:3] == [rows[-1][0], 3] and all(row[2] <= row[3] and row[2] == row[4] for row in rows)
-    pictures = ("--waiting", "w.svg", "--density", "d.png", "--exits", "n.svg")
+    pictures = ("--waiting", "w.svg", "--density", "d.png", "--arrivals", "n.svg")
     main_run("plan", in_metres(folder), *pictures)
     assert "least possible" in (folder / "n.svg").read_text() and "seconds" in (folder / "n.svg").read_text()
     assert "Waiting (fcost)" in (folder / "w.svg").read_text()

@@ -94,6 +94,9 @@ def test_a_door_holds_up_the_bound_and_a_flow_more_so():
     slow = make_score(crowd, scenario, speed=1.0, flow=0.5)
     np.testing.assert_allclose(slow.earliest, slow.earliest[0] + 2.0 * np.arange(12))
     assert slow.lost.sum() == pytest.approx(12 * 99)
+    for rules in ({"clock": "costs", "waiting_cost": 1}, {"following": "forbid"}):  # persons know no rules of robots
+        other = make_score(crowd, replace(scenario, **rules), speed=1.0)
+        np.testing.assert_array_equal(other.earliest, score.earliest)
 
 
 FLOOR = shapely.union_all([shapely.box(0, 0, 10, 6), shapely.box(10, 2, 12, 4)]).difference(

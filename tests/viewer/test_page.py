@@ -87,7 +87,7 @@ def test_a_run_plays_in_the_world_of_each_step(browser, tmp_path):
         seen = sum(is_near(colours, colour).ravel() for colour in sets) > 0
         np.testing.assert_array_equal(np.flatnonzero(seen), np.unique(cells[cells >= 0]))
         at, end = (number * report.step_seconds for number in (step, run.steps))
-        assert shown.text(".clock") == f"step {step} / {run.steps}, {at:.1f} s of {end:.1f} s"
+        assert shown.text(".clock") == f"step {step} / {run.steps} · {at:.1f} s of {end:.1f} s"
     late = int(np.flatnonzero((run.actions == LATE).any(axis=1))[0])
     shown.page.locator(".scrub").fill(str(late))
     shown.wait(f"app.runs[0].playback.step === {late}")
@@ -108,8 +108,7 @@ def test_the_viewer_opens_a_run(open_viewer, tmp_path):
     shown.page.keyboard.press("Escape")
     shown.press("Open…")
     shown.press("run.npz")
-    shown.wait("app.runs[0] && !app.job")
-    assert shown.ask("app.runs[0].playback.worlds.docs.length") == 5
+    shown.wait("app.live && !app.job")  # what it did is done again, live, and can be led another way
     assert shown.faults == []
 
 

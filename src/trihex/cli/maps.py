@@ -18,20 +18,20 @@ class Maps(NamedTuple):
 
     waiting: Path | None
     density: Path | None
-    exits: Path | None
+    arrivals: Path | None
 
 
 def map_options(command: Command) -> Command:
     """Add them."""
     for option in (
         click.option(
-            "--exits",
+            "--arrivals",
             type=PATH,
             metavar="FILE",
             help="How many have left by each exit and step, beside the most that can: .csv, .png, .svg or .pdf.",
         ),
         click.option("--density", type=PATH, metavar="FILE", help="Robots in each cell in the mean, drawn or .npy."),
-        click.option("--waiting", type=PATH, metavar="FILE", help="Time lost in each cell, drawn, or .npy in steps."),
+        click.option("--waiting", type=PATH, metavar="FILE", help="Time lost in each cell, drawn or .npy in steps."),
     ):
         command = option(command)
     return command
@@ -44,11 +44,11 @@ def check_maps(maps: Maps) -> None:
     from trihex.pictures import PICTURE_SUFFIXES
 
     pictures = (*PICTURE_SUFFIXES, ".npy")
-    chart = "a chart" if maps.exits is not None and maps.exits.suffix.lower() != ".csv" else "a table"
+    chart = "a chart" if maps.arrivals is not None and maps.arrivals.suffix.lower() != ".csv" else "a table"
     check_outputs(
         (maps.waiting, pictures, "a map"),
         (maps.density, pictures, "a map"),
-        (maps.exits, (".csv", *CHART_SUFFIXES), chart),
+        (maps.arrivals, (".csv", *CHART_SUFFIXES), chart),
     )
 
 
@@ -72,8 +72,8 @@ def write_maps(motion: Any, maps: Maps, pace: dict[str, float]) -> None:
             from trihex.pictures import picture_of_density
 
             picture_of_density(motion).save(maps.density)
-    if maps.exits is not None:
-        _write_exits(motion, maps.exits, speed)
+    if maps.arrivals is not None:
+        _write_exits(motion, maps.arrivals, speed)
 
 
 def _write_exits(motion: Any, path: Path, speed: dict[str, Any]) -> None:

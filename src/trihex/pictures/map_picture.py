@@ -37,7 +37,7 @@ def picture_of_waiting(
     check_type("plan", plan, Motion)
     area, lost = plan.scenario.area, make_waiting_map(plan)
     seconds = 1.0 if area.frame is None else seconds_per_step(area, speed)
-    unit = "steps" if area.frame is None else "seconds"
+    unit = f"{plan.scenario.step_word}s" if area.frame is None else "seconds"
     more = f", {seconds * lost.sum():.6g} {unit} in all"
     return _picture(
         setting_of(plan), lost * seconds, f"{unit} lost", _named("Waiting", plan), more, (width, title, legend)
@@ -53,7 +53,7 @@ def picture_of_density(
     """
     check_type("plan", plan, Motion)
     unit = "robots a cell" if plan.scenario.area.frame is None else "robots a square metre"
-    more = f", mean over {plan.steps} steps"
+    more = f", mean over {plan.steps} {plan.scenario.step_word}s"
     return _picture(
         setting_of(plan), make_density_map(plan), unit, _named("Density", plan), more, (width, title, legend)
     )

@@ -53,7 +53,7 @@ def _leave(node, step, steps, most, turn, terrain, reserved, layers, count):
     headings = len(turn)
     site, heading, key = layers.state[node] // headings, layers.state[node] % headings, layers.key[node]
     left, cost = (steps - step) * terrain.most_cost, key >> COST_BIT
-    if step < steps and is_free(site, step, terrain, reserved):
+    if step < steps and is_free(site, step - 1, terrain, reserved):
         if cost + terrain.waiting_cost + terrain.distance[site] <= most and terrain.distance[site] <= left:
             paid = key + (np.int64(terrain.waiting_cost) << COST_BIT)
             count = _reach(np.int64(site) * headings + heading, paid, node, np.int64(WAIT), count, layers)
@@ -62,7 +62,7 @@ def _leave(node, step, steps, most, turn, terrain, reserved, layers, count):
         ahead = np.int64(terrain.distance[target])
         if not terrain.moves[site] >> k & 1 or (ahead == 0) != (step == steps) or ahead > left:
             continue
-        if cost + terrain.cost[k] + ahead > most or not is_open(site, k, step, terrain, reserved):
+        if cost + terrain.cost[k] + ahead > most or not is_open(site, k, step - 1, terrain, reserved):
             continue
         came = (site & 1) * len(terrain.cost) + k
         paid = key + (np.int64(terrain.cost[k]) << COST_BIT) + turn[heading, came]
