@@ -243,8 +243,10 @@ class Fleet:
 
     def arrive(self, robots: NDArray[np.integer], distance_of_site: NDArray[np.int32]) -> None:
         """Let those of `robots` arrive that are at a destination, or at the end of the way into one."""
-        is_here = (distance_of_site[self.site[robots]] == 0) | self.enters[robots]
-        here = robots[is_here & (self.due[robots] <= self.tick)]
+        is_here = distance_of_site[self.site[robots]] == 0
+        if self.claims.is_timed:
+            is_here = (is_here | self.enters[robots]) & (self.due[robots] <= self.tick)
+        here = robots[is_here]
         if here.size:
             self.state[here] = ARRIVED
             self._vacate(here)
