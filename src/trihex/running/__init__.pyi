@@ -13,6 +13,7 @@ from .events import (
 from .execution import (
     Execution as Execution,
 )
+from .orders import Orders as Orders
 from .passing import (
     Follower as Follower,
     PassingOrder as PassingOrder,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,35 +15,13 @@ from trihex.fields import LivingField, NScheme, Repair, field_kernels, make_n_sc
 from trihex.kernels.codes import UNDERWAY
 from trihex.kernels.preparing import prepare
 from trihex.planners import PLANNERS
-from trihex.record import in_one_line, read_only
+from trihex.record import read_only
 from trihex.running.fleet import Fleet
 from trihex.running.obstacles import Obstacles
+from trihex.running.orders import Orders
 from trihex.running.replanning import Replanner
 from trihex.running.run import BROKEN, LEFT
 from trihex.running.stepping import ASIDE, STEPPERS, Stepper
-
-
-class Orders(NamedTuple):
-    """What the robots are to do in one step.
-
-    Attributes
-    ----------
-    step : int
-        The number of the step, from 1.
-    action_of_robot : uint8 array
-        A direction of the tessellation in the step in which a move begins, `UNDERWAY` (252) in those in which it goes
-        on, else `WAIT` (255).
-    cell_of_robot : int64 array
-        Number of the cell in which each is after the step, or which it is entering; -1 for robots that are not in the
-        area any more, the destination for those that arrive in this step.
-    """
-
-    step: int
-    action_of_robot: NDArray[np.uint8]
-    cell_of_robot: NDArray[np.int64]
-
-    def __repr__(self) -> str:
-        return in_one_line(self)
 
 
 class Execution:

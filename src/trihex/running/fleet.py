@@ -96,6 +96,8 @@ class Fleet:
     @property
     def is_under_way(self) -> NDArray[np.bool_]:
         """Whether each robot is between two centres."""
+        if not self.claims.is_timed:
+            return np.zeros(self.size, dtype=bool)
         return np.asarray(self.is_going & (self.due > self.tick))
 
     @property
@@ -114,7 +116,9 @@ class Fleet:
 
     def idle_actions(self) -> NDArray[np.uint8]:
         """Return the action of each robot if none begins a move."""
-        return np.where(self.is_under_way, np.uint8(UNDERWAY), np.uint8(WAIT))
+        action = np.full(self.size, WAIT, dtype=np.uint8)
+        action[self.is_under_way] = UNDERWAY
+        return action
 
     def words_of_owner(self, cell: int) -> str:
         """Return who owns a cell, and how, in words; nothing if nobody does."""
@@ -239,8 +243,10 @@ class Fleet:
 
     def arrive(self, robots: NDArray[np.integer], distance_of_site: NDArray[np.int32]) -> None:
         """Let those of `robots` arrive that are at a destination, or at the end of the way into one."""
-        is_here = (distance_of_site[self.site[robots]] == 0) | self.enters[robots]
-        here = robots[is_here & (self.due[robots] <= self.tick)]
+        is_here = distance_of_site[self.site[robots]] == 0
+        if self.claims.is_timed:
+            is_here = (is_here | self.enters[robots]) & (self.due[robots] <= self.tick)
+        here = robots[is_here]
         if here.size:
             self.state[here] = ARRIVED
             self._vacate(here)

@@ -59,13 +59,13 @@ def judge_owners(run: Run, moves: list[Move]) -> Iterator[Conflict]:
                 if other.robot != one.robot and not (one.is_entry and other.is_entry):
                     text = f"robots {other.robot} and {one.robot} both own cell {place}"
                     yield _conflict("cell", one, (other.robot, one.robot), run, cell, text)
-    passings = defaultdict(list)
+    passings: dict[int, list[tuple[Stay, int]]] = defaultdict(list)
     for move in moves if run.scenario.forbids_crossing else ():
         if move.vertex >= 0:
             end = _end_of(run, move.robot, 2 * move.end)
             passings[move.vertex].append((Stay(2 * move.begin, end, move.robot, False), move.here))
-    for own in passings.values():
-        cell_of = dict(own)
+    for passing in passings.values():
+        cell_of = dict(passing)
         for one, others in _meetings(list(cell_of)):
             for other in others:
                 text = f"robots {other.robot} and {one.robot} pass one vertex at a time"
@@ -115,7 +115,7 @@ def stays_of(run: Run, moves: list[Move]) -> dict[int, list[Stay]]:
     """Return who owns each cell when; `moves` are in the order in which they begin."""
     duration_of = 1 if run.scenario.following == "allow" else 2
     stays: dict[int, list[Stay]] = defaultdict(list)
-    last = dict.fromkeys(range(run.robots.size))
+    last: dict[int, Move] = {}
     since = {robot: (2 * int(run.joined[robot]), int(cell)) for robot, cell in enumerate(run.robots)}
     for move in moves:
         lasts, robot = move.end - move.begin, move.robot
@@ -125,13 +125,13 @@ def stays_of(run: Run, moves: list[Move]) -> dict[int, list[Stay]]:
         since[robot] = 2 * move.begin + (lasts if duration_of == 1 else 0), move.there
         last[robot] = move
     for robot, (begin, cell) in since.items():
-        move = last[robot]
-        end = _EVER if run.ended[robot] < 0 else max(2 * int(run.ended[robot]), 0 if move is None else 2 * move.end)
+        final = last.get(robot)
+        end = _EVER if run.ended[robot] < 0 else max(2 * int(run.ended[robot]), 0 if final is None else 2 * final.end)
         end = _end_of(run, robot, end)
-        if move is None or move.entry is None:
+        if final is None or final.entry is None:
             stays[cell].append(Stay(begin, end, robot, False))
             continue
-        entry = max(begin, move.entry)
+        entry = max(begin, final.entry)
         stays[cell].append(Stay(begin, min(entry, end), robot, False))
         stays[cell].append(Stay(entry, end, robot, True))
     return stays
@@ -149,10 +149,10 @@ def judge_arrivals(run: Run, moves: list[Move]) -> Iterator[Conflict]:
             yield Conflict("arrival", move.end, (move.robot,), (), text)
     opened = {(one.event.step, cell) for one in run.occurrences if one.is_accepted for cell in one.opened}
     for robot in np.flatnonzero(run.arrived & (run.ended > run.joined)).tolist():
-        move, ended = last.get(robot), int(run.ended[robot])
-        cell = int(run.robots[robot]) if move is None else move.there
-        enters = move is not None and move.entry is not None and move.end == ended
-        stands = (ended + 1, cell) in opened and (move is None or move.end <= ended)
+        final, ended = last.get(robot), int(run.ended[robot])
+        cell = int(run.robots[robot]) if final is None else final.there
+        enters = final is not None and final.entry is not None and final.end == ended
+        stands = (ended + 1, cell) in opened and (final is None or final.end <= ended)
         if not enters and not stands:
             where = area.place_of_cell(cell)
             text = f"robot {robot} is said to arrive, but is in {where}, which is no destination"

@@ -87,18 +87,23 @@ def _place_at(target, rules, held):
 
 
 @HELPER
+def _owns_from(k, rules, held):
+    """Return the half tick from which a robot owns the cell that it enters by a move that begins now."""
+    return 2 * rules.tick + rules.follows * held.duration[k]
+
+
+@HELPER
 def _is_barred(here, k, target, rules, ways, walkers, held):
     """Tell whether a robot is there or still leaves, one passes the same vertex, or enough enter the destination."""
     if walkers.occupied[target]:
         return True
     if k >= rules.first_vertex_move and held.passed_until[here + ways.vertex[here & 1, k]] > rules.tick:
         return True
-    owns_from = 2 * rules.tick + rules.follows * held.duration[k]
-    if rules.is_timed and held.left_until[target] > owns_from:
+    if rules.is_timed and held.left_until[target] > _owns_from(k, rules, held):
         return True
     if rules.entry_limit == 0 or ways.distance[target] > 0:
         return False
-    return held.entered_until[_place_at(target, rules, held)] > owns_from
+    return held.entered_until[_place_at(target, rules, held)] > _owns_from(k, rules, held)
 
 
 @HELPER
