@@ -55,6 +55,7 @@ from .formats import (
     read_scenario as read_scenario,
     read_starts as read_starts,
     write_area as write_area,
+    write_certificate as write_certificate,
     write_events as write_events,
     write_plan as write_plan,
     write_report as write_report,
@@ -69,6 +70,10 @@ from .judging import (
     Report as Report,
     audit_plan as audit_plan,
     make_report as make_report,
+)
+from .optimum import (
+    Certificate as Certificate,
+    make_certificate as make_certificate,
 )
 from .pictures import (
     Picture as Picture,

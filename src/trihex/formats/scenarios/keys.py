@@ -94,6 +94,7 @@ class OutputsTable(Table):
     summary: _Output | None = None
     picture: _Output | None = None
     waypoints: _Output | None = None
+    certificate: _Output | None = None
     speed: Annotated[Number, Field(gt=0)] | None = None
 
 
