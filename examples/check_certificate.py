@@ -30,7 +30,7 @@ def read_barriers(path):
     lines = Path(path).read_text().splitlines()
     if lines[0].startswith("type"):  # a header of four lines
         return np.array([[letter in "@OTW" for letter in line] for line in lines[4:] if line])
-    return np.array([[letter == "B" for letter in line] for line in lines if line])
+    return np.array([[letter in "B#" for letter in line] for line in lines if line])
 
 
 def make_neighbours(barriers, shape):
@@ -64,9 +64,9 @@ def steps_to_destination(neighbours, goals):
 
 def replay(plan, neighbours, goals, hops):
     """Return the sum of arrival steps; reject a plan in which robots do what they must not, or fail to arrive."""
-    actions, first, cell = plan["actions"], plan["first_action"], plan["robots"].astype(np.int64)
+    actions, first, cell = plan["actions"], plan["first_action"], plan["robots"].copy()
     capacity, length = int(plan["destination_capacity"]), np.diff(first)
-    demand(actions.dtype == np.uint8, "actions must be bytes")
+    demand([one.dtype for one in (actions, first, cell)] == [np.uint8, np.int64, np.int64], "numbers must be whole")
     demand(first.size == cell.size + 1 and first[0] == 0 and first[-1] == actions.size, "actions must fit the robots")
     demand((length >= 0).all() and np.unique(cell).size == cell.size, "robots must start in cells of their own")
     demand(((cell >= 0) & (neighbours[-1, cell] == cell)).all(), "robots must start in free cells")
