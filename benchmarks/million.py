@@ -1,9 +1,11 @@
 """A million robots: generated area, plan, audit and picture by the command line, with time, memory and sizes.
 
-`python -m benchmarks million` takes minutes; `--side 512 --robots 20000 --destinations 20` a few seconds.
+`python -m benchmarks million` takes minutes; `--side 512 --robots 20000 --destinations 20` a few seconds. With
+`--clock costs` moves last as long as they cost, with `--following forbid` nobody enters a cell that is being left.
 """
 
 import argparse
+import json
 import os
 import subprocess
 import sys
@@ -25,7 +27,7 @@ def run(words: list[str], folder: Path) -> None:
     _, status, used = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(status)
     seconds = used.ru_utime + used.ru_stime
-    shown = " ".join(words[:14]) + (" ..." if len(words) > 14 else "")
+    shown = " ".join(words[:18]) + (" ..." if len(words) > 18 else "")
     print(
         f"    {seconds:.1f} s of CPU, {time.perf_counter() - begin:.1f} s, {used.ru_maxrss / 2**20:.2f} GiB, "
         f"status {process.returncode}: trihex {shown}",
@@ -40,6 +42,8 @@ def main(options: list[str]) -> None:
     parser.add_argument("--destinations", type=int, default=1000)
     parser.add_argument("--planner", default="fcost")
     parser.add_argument("--tessellation", default="hexagonal")
+    parser.add_argument("--clock", default="steps")
+    parser.add_argument("--following", default="allow")
     parser.add_argument("--folder", type=Path, help="where the files stay; else they are removed")
     chosen = parser.parse_args(options)
     print(machine())
@@ -55,8 +59,12 @@ def main(options: list[str]) -> None:
         x, y = area.cell_to_xy(exits)
         places = [word for place in zip(x, y, strict=True) for word in ("--destination", f"{place[0]},{place[1]}")]
         words = ["plan", "area.map", "--tessellation", chosen.tessellation, "--planner", chosen.planner]
+        words += ["--clock", chosen.clock, "--following", chosen.following]
         words += ["--robots", str(chosen.robots), "--seed", "1", "--out", "plan.npz", "--picture", "plan.png"]
         run([*words, "--summary", "report.json", *places], folder)
         run(["check", "plan.npz"], folder)
+        report = json.loads((folder / "report.json").read_text())
+        told = ("arrived", "steps", "total_time", "lower_bound", "gap", "conflicts")
+        print("    " + ", ".join(f"{name} {report[name]}" for name in told))
         for path in sorted(folder.iterdir()):
             print(f"    {path.name}: {path.stat().st_size / 1e6:.1f} MB")

@@ -10,7 +10,18 @@ import ezdxf
 import numpy as np
 from PIL import Image
 
-from trihex import Area, Frame, Scenario, Tessellation, Trial, write_area, write_plan, write_run, write_scenario
+from trihex import (
+    Area,
+    Frame,
+    Scenario,
+    Tessellation,
+    Trial,
+    write_area,
+    write_plan,
+    write_run,
+    write_scenario,
+    write_waypoints,
+)
 from trihex.formats import draft_of
 from trihex.plans import plan_from_lists
 from trihex.running import Event
@@ -145,6 +156,7 @@ def make_seeds() -> dict[str, bytes]:
         b"step,event,x,y,zone,metres\n2,barrier,3,2,,\n3,join,1,2,,\n4,close,,,north,\n5,barrier,,,,1 1; 2 1; 2 2\n"
     )
     seeds["events.toml"] = b'[[event]]\nstep = 2\nevent = "barrier"\nmetres = [[1, 1], [2, 1.5]]\n'
+    seeds["crowd.txt"] = b"# framerate: 2\n0 0 0.2 -0.2\n0 1 0.7 -0.2\n4 0 1.2 -1.2\n4 1 1.2 -1.7\n"
     seeds["study.toml"] = STUDY.encode()
     seeds["plan.dxf"], seeds["binary.dxf"] = drawing("asc"), drawing("bin")
     document, arrays = document_of(draft_of(scenario))
@@ -155,6 +167,7 @@ def make_seeds() -> dict[str, bytes]:
         write_area(plain, folder / "yard.map")
         for suffix in ("csv", "npz", "parquet"):
             write_plan(plan, folder / f"plan.{suffix}")
+        write_waypoints(plan, folder / "crowd.sqlite")
         write_run(Trial(scenario, events=EVENTS).run(), folder / "run.npz")
         write_scenario(scenario, folder / "yard.toml")
         for suffix in ("pgm", "png", "bmp", "gif", "jpeg"):

@@ -20,9 +20,11 @@ from trihex import (
     Scenario,
     TrihexError,
     audit_plan,
+    make_score,
     read_plan,
     read_run,
     read_starts,
+    read_trajectories,
     write_area,
     write_plan,
     write_run,
@@ -87,6 +89,13 @@ def read_a_run(path: Path) -> None:
         assert read_run(copy) == run, "the copy is another run"
     finally:
         copy.unlink()
+
+
+def read_a_crowd(path: Path) -> None:
+    """Read where persons walked, and score them in the yard if they are there."""
+    crowd = read_trajectories(path)
+    if crowd.person.size < _MOST_CELLS:
+        make_score(crowd, Scenario(_YARD, [(7, 0)]))
 
 
 def read_a_study(path: Path) -> None:
@@ -162,6 +171,8 @@ TARGETS: dict[str, Callable[[Path], None]] = {
     "events.csv": read_some_events,
     "events.toml": read_some_events,
     "run.npz": read_a_run,
+    "crowd.sqlite": read_a_crowd,
+    "crowd.txt": read_a_crowd,
     "study.toml": read_a_study,
 }
 

@@ -37,15 +37,15 @@ CASES = {
     "report of a scenario": ("th.make_report(scenario)", "plan must be a Plan, not Scenario: make_plan(scenario) makes one"),
     "audit of a report": ("th.audit_plan(report)", "plan must be a Plan, not Report: report.plan is one"),
     "audit of a file": ("th.audit_plan('plan.npz')", "plan must be a Plan, not 'plan.npz': read_plan(path) reads one"),
-    "picture of a scenario as a plan": ("th.picture_of_plan(scenario)", "plan must be a Plan, not Scenario: make_plan(scenario) makes one"),
+    "picture of a scenario as a plan": ("th.picture_of_plan(scenario)", "plan must be a Plan or a Run, not Scenario: make_plan(scenario) makes one"),
     "drawing of an N-scheme as directions": ("th.draw_d_scheme(n_scheme)", "d_scheme must be a DScheme, not NScheme: make_d_scheme(n_scheme) makes one"),
-    "viewer of a file": ("th.open_viewer('rooms.map')", "record must be an Area or a Scenario or a Plan or a Draft, not 'rooms.map': read_area(path) reads one"),
+    "viewer of a file": ("th.open_viewer('rooms.map')", "record must be an Area or a Scenario or a Plan or a Run or a Draft, not 'rooms.map': read_area(path) reads one"),
     "scenario without an area": ("th.Scenario([[0, 1]], (0, 0))", "area must be an Area, not list"),
     "execution of a plan": ("th.Execution(plan)", "scenario must be a Scenario, not Plan: plan.scenario is one"),
     "trial for a run": ("th.audit_run(th.Trial(scenario))", "run must be a Run, not Trial: trial.run() makes one"),
     "N-scheme of another": ("th.make_plan(scenario, n_scheme=area)", "n_scheme must be an NScheme or None, not Area"),
     "one scenario for many": ("th.make_comparison(scenario, ['greedy'])", "scenarios must be a list of scenarios, not Scenario: put it into brackets, [scenario]"),
-    "file and record the wrong way round": ("th.write_plan('plan.npz', plan)", "plan must be a Plan, not 'plan.npz': read_plan(path) reads one"),
+    "file and record the wrong way round": ("th.write_plan('plan.npz', plan)", "plan must be a Plan or a Run, not 'plan.npz': read_plan(path) reads one"),
     "no path": ("th.read_area(5)", "path must be the path of a file, not int"),
     # options
     "option with a slip": ("th.read_area('house.yaml', cellsize=3)", "option of read_area must be one of tessellation, cell_size, ..., not 'cellsize'; did you mean 'cell_size'?"),
@@ -135,7 +135,8 @@ def entry_points():
 
 # Made by others than users: their makers check what they are given.
 MADE = {"Arrivals", "Audit", "Comparison", "Conflict", "DScheme", "Follower", "LastGeneration", "LowerBound", "NScheme",
-        "PassingOrder", "Picture", "Report", "Run", "RunAudit", "RunReport", "Study", "TiledField", "Occurrence"}  # fmt: skip
+        "PassingOrder", "Picture", "Report", "Run", "RunAudit", "RunReport", "Study", "TiledField", "Occurrence",
+        "EarliestArrivals", "Exits", "Score", "Trajectories"}  # fmt: skip
 
 
 @pytest.mark.parametrize(("name", "count"), [(n, c) for n, c in entry_points() if n not in MADE])

@@ -3,9 +3,9 @@
 import sys
 from pathlib import Path
 
-from examples.studies import planner, tessellations, unknown
+from examples.studies import planner, tessellations, time, unknown
 
-PAGES = {"tessellations": tessellations, "planner": planner, "unknown": unknown}
+PAGES = {"tessellations": tessellations, "planner": planner, "unknown": unknown, "time": time}
 
 
 def main(docs: Path) -> None:

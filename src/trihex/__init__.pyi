@@ -13,6 +13,7 @@ from .areas import (
     random_robots as random_robots,
 )
 from .bounds import (
+    EarliestArrivals as EarliestArrivals,
     LowerBound as LowerBound,
     cut_bound as cut_bound,
     distance_bound as distance_bound,
@@ -54,6 +55,7 @@ from .formats import (
     read_run as read_run,
     read_scenario as read_scenario,
     read_starts as read_starts,
+    read_trajectories as read_trajectories,
     write_area as write_area,
     write_certificate as write_certificate,
     write_events as write_events,
@@ -68,8 +70,10 @@ from .judging import (
     Audit as Audit,
     Conflict as Conflict,
     Report as Report,
+    Score as Score,
     audit_plan as audit_plan,
     make_report as make_report,
+    make_score as make_score,
 )
 from .optimum import (
     Certificate as Certificate,
@@ -81,26 +85,38 @@ from .pictures import (
     draw_arrivals as draw_arrivals,
     draw_comparison as draw_comparison,
     draw_d_scheme as draw_d_scheme,
+    draw_exits as draw_exits,
     draw_generation as draw_generation,
     draw_generations as draw_generations,
     draw_n_scheme as draw_n_scheme,
     draw_plan as draw_plan,
+    draw_score as draw_score,
     picture_of_area as picture_of_area,
     picture_of_d_scheme as picture_of_d_scheme,
+    picture_of_density as picture_of_density,
     picture_of_generation as picture_of_generation,
+    picture_of_lost as picture_of_lost,
     picture_of_n_scheme as picture_of_n_scheme,
     picture_of_plan as picture_of_plan,
     picture_of_run as picture_of_run,
+    picture_of_waiting as picture_of_waiting,
     write_animation as write_animation,
     write_run_animation as write_run_animation,
 )
 from .planners import (
+    make_earliest_arrivals as make_earliest_arrivals,
     make_plan as make_plan,
+    straighten as straighten,
 )
 from .plans import (
     Arrivals as Arrivals,
+    Exits as Exits,
     Plan as Plan,
+    Trajectories as Trajectories,
     make_arrivals as make_arrivals,
+    make_density_map as make_density_map,
+    make_exits as make_exits,
+    make_waiting_map as make_waiting_map,
 )
 from .running import (
     Event as Event,

@@ -40,7 +40,7 @@ _WAYS = {
     ("Plan", "Scenario"): "make_plan(scenario) makes one",
     ("Plan", "Report"): "report.plan is one",
     ("Plan", "Arrivals"): "leave out record='arrivals' to have one made",
-    ("Plan", "Run"): "runs have functions of their own, such as picture_of_run, audit_run, write_run",
+    ("Plan", "Run"): "audit_run judges runs, make_run_report reports on them",
     ("Plan", "str"): "read_plan(path) reads one",
     ("Report", "Plan"): "make_report(plan) makes one",
     ("Run", "Trial"): "trial.run() makes one",
@@ -48,6 +48,8 @@ _WAYS = {
     ("Run", "str"): "read_run(path) reads one",
     ("Tessellation", "Area"): "area.tessellation is one",
 }
+# Bases, by the names of what they are the base of: nobody makes a Motion.
+_KINDS = {"Motion": ("Plan", "Run")}
 
 
 class TrihexError(Exception):
@@ -153,7 +155,8 @@ def check_type(parameter: str, value: object, *kinds: type, error: type[TrihexEr
     if isinstance(value, kinds):
         return
     given = "str" if isinstance(value, PathLike) else kind_of(value)
-    names = ["None" if kind is type(None) else kind.__name__ for kind in kinds]
+    own = ["None" if kind is type(None) else kind.__name__ for kind in kinds]
+    names = [name for one in own for name in _KINDS.get(one, (one,))]
     vowels = ("A", "E", "I", "O", "NS")  # as they are spoken
     named = [name if name == "None" else f"{'an' if name.startswith(vowels) else 'a'} {name}" for name in names]
     way = next((_WAYS[name, given] for name in names if (name, given) in _WAYS), "")

@@ -18,6 +18,7 @@ from trihex.bounds.cuts import find_cuts
 from trihex.bounds.demand import make_demand
 from trihex.bounds.gates import make_gate_network
 from trihex.bounds.meetings import find_meeting_nodes
+from trihex.bounds.queues import queue_past_cuts
 from trihex.bounds.rhythm import entry_headways
 from trihex.bounds.serving import least_arrivals
 
@@ -163,7 +164,7 @@ def test_a_bound_that_is_cut_short_is_lower(scenario):
 
 def _queued(demand):
     cuts = find_cuts(demand, 10**6)
-    return int(bounds._steps_past_cuts(demand, cuts, entry_headways(demand.nodes)).sum())
+    return int(queue_past_cuts(demand, cuts, entry_headways(demand.nodes)).sum())
 
 
 @settings(max_examples=swept(40, 20), deadline=None)

@@ -39,7 +39,8 @@ SUMMARY_KEYS = [
         "total_time",
     ),
     *("total_distance", "total_waiting", "longest_time", "lower_bound", "lower_bound_name", "gap", "optimal"),
-    *("conflicts", "corner_moves", "squeezing_moves", "seconds"),
+    *("conflicts", "corner_moves", "squeezing_moves", "turning", "step_seconds"),
+    *("last_arrival_seconds", "mean_arrival_seconds", "seconds"),
 ]
 
 
@@ -428,7 +429,7 @@ def test_bars_are_for_terminals_only(folder):
 
 
 def test_every_command_is_listed(folder):
-    helpers = {"group", "options", "outputs", "progress", "texts", "tiles", "types"}
+    helpers = {"group", "maps", "options", "outputs", "progress", "texts", "tiles", "types"}
     modules = {path.stem for path in Path(trihex.cli.__file__).parent.glob("[a-z]*.py")}
     assert modules == helpers | COMMANDS.keys()
 

@@ -89,11 +89,27 @@ def test_show_tells_and_draws_an_area(house):
     assert lines[-1] == "#" * 23
 
 
+TURNS = ("--turn-time", "0.25", "--frame-id", "hall")
+
+
 def test_a_scenario_tells_its_outputs_and_writes_them_beside_itself(house, tmp_path, monkeypatch):
-    first = ["--robots", 5, "--speed", "0.5", "--write-scenario", "s.toml", "--out", "p.npz", "--waypoints", "w.csv"]
+    first = [
+        "--robots",
+        5,
+        "--speed",
+        "0.5",
+        *TURNS,
+        "--write-scenario",
+        "s.toml",
+        "--out",
+        "p.npz",
+        "--waypoints",
+        "w.csv",
+    ]
     assert run("plan", "house.yaml", *SIZE, *PLACES, *first, "--picture", "p.svg").exit_code == 0
     text = (tmp_path / "s.toml").read_text()
-    assert '[outputs]\nplan = "p.npz"\npicture = "p.svg"\nwaypoints = "w.csv"\nspeed = 0.5\n' in text
+    outputs = 'plan = "p.npz"\npicture = "p.svg"\nwaypoints = "w.csv"\nspeed = 0.5\nturn_time = 0.25\n'
+    assert f'[outputs]\n{outputs}frame_id = "hall"\n' in text
     (tmp_path / "elsewhere").mkdir()
     (tmp_path / "elsewhere" / "s.toml").write_text(text.replace("p.svg", "p.png"))
     before = {name: (tmp_path / name).read_bytes() for name in ("p.npz", "w.csv")}
@@ -142,3 +158,49 @@ def test_compare_covers_a_place_anew_by_each_tessellation_that_fits(house):
     done = run("compare", "house.yaml", "--cell-size", 0.2, "--robot-radius", 0.1, *PLACES, "--robots", 10)
     assert done.exit_code == 2 and done.stderr.count("is left out") == 3
     assert "no tessellation fits" in done.stderr
+
+
+def test_clearance_is_kept_beyond_the_radius(house, tmp_path):
+    """Robots of 0.05 metres that keep 0.05 clear find the room that robots of 0.1 have; less size is refused."""
+    keep = ["--cell-size", "0.4", "--robot-radius", "0.05", "--clearance", "0.05"]
+    done = run("convert", "house.yaml", "a.toml", *keep)
+    assert done.output.endswith("written: a.toml\n")
+    run("convert", "house.yaml", "b.toml", *SIZE)
+    assert (tmp_path / "a.toml").read_text() == (tmp_path / "b.toml").read_text()
+    small = run("plan", "house.yaml", *keep[2:], "--cell-size", "0.3", "--following", "allow", *PLACES, "--robots", 2)
+    assert small.exit_code == 2 and "cell_size must be at least 0.4 metres" in small.output
+    assert run("plan", "house.yaml", *SIZE, "--clearance", "-1", *PLACES).output.startswith(
+        "trihex: error: --clearance must be a number above 0, not '-1'"
+    )
+
+
+def test_all_that_is_written_of_a_plan_is_in_ticks_by_the_clock_costs(house, tmp_path):
+    """Maps, exits and seconds come out; what robots that never stand all at once cannot do is refused in a line."""
+    options = ["house.yaml", "--cell-size", "0.5", "--tessellation", "square", "--clock", "costs", *PLACES]
+    options += ["--robots", 20]
+    more = [
+        "--waiting",
+        "w.npy",
+        "--density",
+        "d.png",
+        "--arrivals",
+        "e.csv",
+        "--waypoints",
+        "w.csv",
+        "--picture",
+        "p.png",
+    ]
+    done = run("plan", *options, *more, "--out", "p.csv", "--summary", "s.json")
+    assert done.exit_code == 0, done.output
+    summary, exits = json.loads((tmp_path / "s.json").read_text()), (tmp_path / "e.csv").read_text().splitlines()
+    assert "a tick lasts 0.0714 s" in done.output and len(exits) == summary["steps"] + 2
+    assert summary["last_arrival_seconds"] == pytest.approx(summary["steps"] * summary["step_seconds"])
+    assert np.load("w.npy").sum() == (tmp_path / "p.csv").read_text().count(",wait,") == summary["total_waiting"]
+    for refused, message in (
+        ("--straight", "plan must have moves of one step"),
+        ("--turn-time=1", "turn_time must be 0"),
+    ):
+        done = run("plan", *options, refused)
+        assert done.exit_code == 2 and message in done.output and len(done.output.strip().splitlines()) <= 3, (
+            done.output
+        )

@@ -2,6 +2,7 @@
 
 import json
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -126,3 +127,75 @@ def test_a_movie_shows_destinations_as_they_are_in_each_step(folder):
     places = [np.argwhere((frame[y : y + 30, x : x + 120] == green).all(axis=-1)) for frame in film.frames()]
     columns = [sorted(set((found[:, 1] // 10).tolist())) for found in places]
     assert columns[:2] == [[0], [0]] and columns[2] == [] and columns[3:] == [[11]] * len(columns[3:])
+
+
+def in_metres(folder):
+    """Write a scenario in metres for robots of a radius; return its name."""
+    frame = th.Frame(0.5, robot_radius=0.1)
+    area = th.Area("hexagonal", th.read_area("world.txt").barriers, "world", frame)
+    th.write_scenario(th.Scenario(area, [(0, 0)], [(6, 2), (2, 2), (5, 0)]), folder / "world.toml")
+    return "world.toml"
+
+
+def test_what_happened_is_written_as_a_plan_would_be(folder):
+    """Waypoints, picture, page and seconds of a run; its file is converted, checked, animated like a plan."""
+    (folder / "events.csv").write_text("step,event,x,y,robot,steps\n1,late,,,0,2\n")
+    pace = ("--speed", "0.25", "--turn-time", "0.5", "--frame-id", "hall")
+    files = ("--out", "r.npz", "--waypoints", "r.csv", "--picture", "r.svg", "--animation", "r.html")
+    done = run(in_metres(folder), "--events", "events.csv", *pace, *files)
+    record = th.read_run("r.npz")
+    last = int(record.ended.max()) * 2.5
+    assert f"the last arrives after {last:.1f} s" in done.stdout and "a step lasts 2.5 s" in done.stdout
+    assert done.stdout.splitlines()[-1] == "written: r.npz, r.svg, r.html, r.csv"
+    assert "Run (fcost)" in (folder / "r.svg").read_text() and "robot and its path" in (folder / "r.svg").read_text()
+    rows = np.loadtxt("r.csv", delimiter=",", skiprows=1)
+    stands = rows[(rows[:, 0] == 0) & (rows[:, 1] <= 5.0)]
+    assert len(stands) == 5 and np.ptp(stands[:, 2:4], axis=0).tolist() == [0, 0] and rows[:, 1].max() == last
+    main_run("convert", "r.npz", "again.csv", "--waypoints", *pace)
+    assert (folder / "again.csv").read_bytes() == (folder / "r.csv").read_bytes()
+    main_run("convert", "r.npz", "r.yaml", *pace)
+    assert "frame_id: hall" in (folder / "r.yaml").read_text()
+    main_run("convert", "r.npz", "table.csv")
+    assert "0,1,6,2,late,10" in (folder / "table.csv").read_text()
+    assert (
+        main_run("check", "r.npz").stdout
+        == f"r.npz: 3 of 3 robots arrived in {record.steps} steps; safe: no conflicts\n"
+    )
+    assert json.loads(main_run("check", "r.npz", "--summary", "-").stdout)["total_time"] == record.total_time
+    assert main_run("animate", "r.npz", "--out", "r.gif").stdout == f"r.gif: 3 robots, {record.steps} steps\n"
+    main_run("animate", "r.npz", "--beside", "r.npz", "--out", "both.html")
+    assert main_run("check", "r.npz", "--corners", "no-cut", status=2).stderr.startswith(
+        "trihex: error: r.npz is a run and says all itself, so --corners cannot be told"
+    )
+
+
+def test_maps_and_exits_are_written(folder):
+    """Of a plan and of a run: arrays and pictures of waiting and density, N(t) by exit beside the most possible."""
+    (folder / "events.csv").write_text("step,event,robot,steps\n1,late,0,2\n")
+    maps = ("--waiting", "w.npy", "--density", "d.npy", "--arrivals", "n.csv", "--speed", "0.5")
+    for command in (["run", in_metres(folder), "--events", "events.csv"], ["plan", in_metres(folder)]):
+        assert main_run(*command, *maps).stdout.splitlines()[-1] == "written: w.npy, d.npy, n.csv"
+        assert np.load("w.npy").sum() == (2 if command[0] == "run" else 0) and np.load("d.npy").shape == (3, 7)
+        lines = (folder / "n.csv").read_text().splitlines()
+        assert lines[0] == 'step,seconds,arrived,most (optimum),"(0, 0) at (0.288675, -0.25) metres"'
+        rows = [[float(value) for value in line.split(",")] for line in lines[1:]]
+        assert rows[-1][1:3] == [rows[-1][0], 3] and all(row[2] <= row[3] and row[2] == row[4] for row in rows)
+    pictures = ("--waiting", "w.svg", "--density", "d.png", "--arrivals", "n.svg")
+    main_run("plan", in_metres(folder), *pictures)
+    assert "least possible" in (folder / "n.svg").read_text() and "seconds" in (folder / "n.svg").read_text()
+    assert "Waiting (fcost)" in (folder / "w.svg").read_text()
+    wrong = main_run("plan", in_metres(folder), "--waiting", "w.csv", status=2)
+    assert "w.csv: the suffix of a map must be one of" in wrong.stderr
+
+
+def test_an_unsafe_run_is_told(folder):
+    record = th.Trial(th.read_scenario(in_metres(folder))).run()
+    th.write_run(replace(record, state_of_robot=np.array([1, 1, 2], dtype=np.uint8)), "r.npz")
+    wrong = main_run("check", "r.npz", status=1)
+    assert "unsafe: 1 conflict\nstep 6: robot 2 is said to have left or broken down, or is not" in wrong.stdout
+
+
+def main_run(*command, status=0):
+    result = CliRunner().invoke(main, [*map(str, command)])
+    assert result.exit_code == status, result.output
+    return result

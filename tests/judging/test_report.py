@@ -3,6 +3,7 @@
 import json
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 import trihex as th
@@ -50,10 +51,29 @@ def test_the_summary_says_it_all():
         "conflicts": 0,
         "corner_moves": 0,
         "squeezing_moves": 0,
+        "turning": 0.0,
+        "step_seconds": None,
+        "last_arrival_seconds": None,
+        "mean_arrival_seconds": None,
         "seconds": {"read": None, "field": None, "plan": 0.25, "audit": None},
     }
     assert report.unreachable_robots.tolist() == [3]
     assert json.loads(json.dumps(report.as_dict())) == report.as_dict()
+
+
+def test_in_metres_it_tells_seconds_and_turns():
+    """Two moves east, one south-east: 45 degrees; a step takes sqrt(2) x 0.5 metres at 0.25 a second, and 1 to turn."""
+    area = th.Area("square", np.zeros((3, 4)), frame=th.Frame(0.5))
+    names = area.tessellation.direction_names[0]
+    east, south_east = names.index("E"), names.index("SE")
+    scenario = th.Scenario(area, [(3, 1)], [(0, 0), (2, 0)])
+    plan = plan_from_lists(scenario, [[WAIT, east, WAIT, east, south_east], [south_east]])
+    numbers = th.make_report(plan, speed=0.25, turn_time=1.0).as_dict()
+    step = 0.5 * 2**0.5 / 0.25 + 1
+    assert numbers["step_seconds"] == pytest.approx(step)
+    assert numbers["last_arrival_seconds"] == pytest.approx(5 * step, abs=1e-5)
+    assert numbers["mean_arrival_seconds"] == pytest.approx(3 * step, abs=1e-5)
+    assert numbers["turning"] == 22.5
 
 
 def test_a_proven_plan_is_its_own_bound():

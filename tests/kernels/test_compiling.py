@@ -52,7 +52,7 @@ def test_without_the_options_that_numba_does_not_document_its_own_compiler_is_ta
 
 
 def test_optimal_prepares_the_way_that_it_takes():
-    for shape, cost, way in (("hexagonal", 10, "earliest"), ("hexagonal", 7, "levels"), ("triangular", 10, "levels")):
+    for shape, cost, way in (("hexagonal", 10, "earliest"), ("hexagonal", 7, "crowd"), ("triangular", 10, "crowd")):
         scenario = th.Scenario(th.Area(shape, [[0] * 6] * 5), [(0, 0)], [(3, 3)], waiting_cost=cost)
         assert uses_of("optimal", scenario) == ["optimal", f"optimal_{way}"]
         assert make_network(th.make_n_scheme(scenario), "time").has_equal_steps == (way == "earliest")

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from tests.oracles.timed import with_time
 from tests.strategies import random_scenario
 from trihex.areas import Frame, Zone
 from trihex.running import KINDS, OF_SHAPES, OF_ZONES, Event, Sensor, Trial
@@ -39,14 +40,16 @@ def random_events(rng, scenario, count):
     return events
 
 
-def random_trial(seed, **limits):
-    """Return a trial; what robots see, what happens and who is late as the number says."""
+def random_trial(seed, time=("steps", "allow"), **limits):
+    """Return a trial; what robots see, what happens and who is late as the number says, `time` the clock and rule."""
     rng = np.random.default_rng([seed, 9])
     scenario = random_scenario(seed, **{"sides": (3, 16), **limits})
     cells = np.arange(scenario.area.cell_count)
     zones = Zone("west", cells[cells % scenario.area.width < 2]), Zone("odd, cells", cells[1::4])
     frame = Frame(0.8, (3.0, -2.0), 0.3) if seed % 2 else None
     scenario = replace(scenario, area=replace(scenario.area, zones=zones, frame=frame))
+    if time != ("steps", "allow"):
+        scenario = with_time(scenario, *time)
     radius = RADII[rng.integers(len(RADII))]
     return Trial(
         scenario,

@@ -21,19 +21,20 @@ def occupied(fleet):
 
 
 def test_robots_move_into_cells_that_are_left_in_the_same_step():
-    fleet, _ = fleet_of((0, 0), (1, 0), (3, 0))
-    fleet.move(np.array([EAST, EAST, LATE], dtype=np.uint8))
+    fleet, scenario = fleet_of((0, 0), (1, 0), (3, 0))
+    distance = th.make_n_scheme(scenario).distance_of_site
+    fleet.move(np.array([EAST, EAST, LATE], dtype=np.uint8), distance)
     assert fleet.cell_of_robot.tolist() == occupied(fleet) == [1, 2, 3]
     came_from = fleet.layout.site_to_cell(fleet.came_from[:2]).tolist()
     assert came_from == [0, 1] and fleet.came_from[2] == -1
-    fleet.move(np.array([WAIT, WAIT, EAST], dtype=np.uint8))
+    fleet.move(np.array([WAIT, WAIT, EAST], dtype=np.uint8), distance)
     assert fleet.cell_of_robot.tolist() == [1, 2, 4]
 
 
 def test_who_arrives_leaves_or_breaks_down_is_in_nobodys_way():
     fleet, scenario = fleet_of((0, 0), (2, 0), (4, 0))
     distance = th.make_n_scheme(scenario).distance_of_site
-    fleet.move(np.array([WAIT, WAIT, EAST], dtype=np.uint8))
+    fleet.move(np.array([WAIT, WAIT, EAST], dtype=np.uint8), distance)
     fleet.arrive(fleet.going, distance)
     fleet.end(0, LEFT)
     fleet.end(1, BROKEN)
@@ -55,15 +56,15 @@ def test_robots_join_on_empty_free_cells_only():
     with pytest.raises(th.ExecutionError, match=r"a robot must join on a free cell; \(2, 0\) is a barrier"):
         fleet.join((2, 0), blocked)
     with pytest.raises(th.ExecutionError, match=r"must not appear on a robot: robot 1 stands at \(3, 0\)"):
-        fleet.check_empty(fleet.layout.cell_to_site(np.array([2, 3])))
+        fleet.check_empty(np.array([2, 3]))
     assert fleet.size == 2
 
 
 def test_a_fleet_goes_back_to_what_it_was():
-    fleet, _ = fleet_of((0, 0), (2, 0))
+    fleet, scenario = fleet_of((0, 0), (2, 0))
     before = fleet.as_arrays()
     fleet.place({0: (1, 0)}, fleet.area.make_blocked())
     fleet.end(1, LEFT)
     fleet.join((4, 0), fleet.area.make_blocked())
-    fleet.restore(before)
+    fleet.restore(before, th.make_n_scheme(scenario).distance_of_site)
     assert fleet.cell_of_robot.tolist() == occupied(fleet) == [0, 2] and fleet.state.tolist() == [GOING, GOING]

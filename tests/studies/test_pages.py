@@ -14,7 +14,7 @@ import trihex as th
 from trihex.studies.row import COLUMNS
 
 ROOT = Path(__file__).parents[2]
-NAMES = ("tessellations", "planner", "unknown")
+NAMES = ("tessellations", "planner", "unknown", "time")
 
 
 @pytest.fixture(autouse=True)
@@ -63,17 +63,13 @@ def means(rows, value):
     return mean, student * math.sqrt(variance / len(found))
 
 
+KINDS = [("triangular", "full"), ("triangular", "edge"), ("hexagonal", "full"), ("square", "full"), ("square", "edge")]
+
+
 def test_the_lengths_in_the_page_of_the_tessellations_are_those_of_the_results():
     rows, table = rows_of("tessellations"), table_after(text_of("tessellations"), "## Lengths")
     assert table[0] == ["cells", "open", "obstacles", "rooms", "doors"] and len(table) == 7
-    kinds = [
-        ("triangular", "full"),
-        ("triangular", "edge"),
-        ("hexagonal", "full"),
-        ("square", "full"),
-        ("square", "edge"),
-    ]
-    for kind, line in zip(kinds, table[2:], strict=True):
+    for kind, line in zip(KINDS, table[2:], strict=True):
         for ground, cell in zip(table[0][1:], line[1:], strict=True):
             some = [
                 row for row in rows
@@ -135,6 +131,72 @@ def test_the_prices_in_the_page_of_the_unknown_are_those_of_the_results():
     ):
         table = table_after(text, words)
         assert f"{float(table[-1][table[0].index(column)].split()[0]):.{0 if column == '3 cells' else 1}f} %" in top
+
+
+def told_is(cell, mean_and_half, abs_):
+    assert [float(part) for part in cell.split(" ± ")] == pytest.approx(mean_and_half, abs=abs_)
+
+
+def test_the_seconds_and_prices_in_the_page_of_time_are_those_of_the_results():
+    text = text_of("time")
+    # How long a tick lasts at 1 metre a second, in edge steps: so that no move is faster.
+    tick = {("triangular", "steps"): 2.0, ("triangular", "costs"): 1 / 4, ("square", "steps"): math.sqrt(2)}
+    tick |= {("square", "costs"): 1 / 7}
+
+    def seconds(row):
+        ticks = tick.get((row["tessellation"], row["clock"]), 1.0) if row["neighbourhood"] == "full" else 1.0
+        return int(row["steps"]) * ticks * float(row["cell_size"])
+
+    rows = [row for row in rows_of("time") if row["robots"] == "160"]
+    table = table_after(text, "Seconds until the last of 160 robots")
+    assert table[0] == ["cells", "steps, allow", "costs, allow", "steps, forbid", "costs, forbid"]
+    by_kind = {kind: [r for r in rows if (r["tessellation"], r["neighbourhood"]) == kind] for kind in KINDS}
+    for kind, line in zip(KINDS, table[2:], strict=True):
+        for rule, cell in zip(table[0][1:], line[1:], strict=True):
+            told_is(
+                cell, means([r for r in by_kind[kind] if f"{r['clock']}, {r['following']}" == rule], seconds), 0.051
+            )
+    prices = table_after(text, "## What following costs")
+    steps = [line for line in prices[2:] if line[1] == "steps"]
+    for kind, line in zip(KINDS, steps, strict=True):
+        some = [row for row in by_kind[kind] if row["clock"] == "steps"]
+        free = {(r["area"], r["seed"]): int(r["total_time"]) for r in some if r["following"] == "allow"}
+        forbidden = [row for row in some if row["following"] == "forbid"]
+
+        def price(row, free=free):
+            return 100 * int(row["total_time"]) / free[row["area"], row["seed"]] - 100
+
+        told_is(line[2], means(forbidden, price), 0.051)
+
+
+def test_robots_of_one_radius_do_what_the_table_says_and_the_page_says_it():
+    from examples.studies import radius
+
+    rows, text = rows_of("radius"), text_of("time")
+    assert len(rows) == 14 * 10 * 12 and {row["conflicts"] for row in rows} == {"0", ""}
+    columns = {"door": "flow", "hall": "last", "floor": "share"}
+    made = radius.rows([3])
+    for old, new in zip([row for row in rows if row["seed"] == "3"], made, strict=True):
+        words = ("what", "place", "seed", "tessellation", "neighbourhood", "clock", "following", "robots")
+        assert [old[name] for name in words] == [str(new.get(name, "")) for name in words]
+        numbers = {name: value for name, value in radius.rounded(new).items() if isinstance(value, float)}
+        assert {name: float(old[name]) for name in numbers} == pytest.approx(numbers, abs=2e-6)
+    for words, what, abs_ in (
+        ("## What it brings: doors", "door", 6e-3),
+        ("that open up", "floor", 6e-3),
+        ("## One radius", "hall", 0.06),
+    ):
+        table = table_after(text, words)
+        places = {"door": radius.DOORS, "floor": radius.WIDTHS, "hall": ("open", "obstacles", "rooms", "doors")}[what]
+        lines = [line for line in table[2:] if line[0] == "hexagons"]
+        for following, line in zip(("allow", "forbid"), lines, strict=True):
+            for place, cell in zip(places, line[4:], strict=True):
+                some = [
+                    row for row in rows
+                    if (row["what"], row["place"], row["following"]) == (what, str(place), following)
+                    and row["tessellation"] == "hexagonal"
+                ]  # fmt: skip
+                told_is(cell, means(some, lambda row, what=what: float(row[columns[what]])), abs_)
 
 
 def test_the_example_is_the_one_that_is_explained_and_runs(tmp_path):

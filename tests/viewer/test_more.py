@@ -169,5 +169,5 @@ def test_seconds_are_told_where_there_are_metres(open_viewer):
     area = th.Area("square", np.zeros((3, 9)), frame=th.Frame(0.5))
     shown = open_viewer(make_plan(th.Scenario(area, [(8, 1)], [(0, 1)]), "greedy"))
     shown.page.locator(".scrub").fill("4")
-    assert shown.text(".clock") == f"step 4 / 8 · {4 * 0.5 * 2**0.5:.1f} s"
+    assert shown.text(".clock") == f"step 4 / 8 · {4 * 0.5 * 2**0.5:.1f} s of {8 * 0.5 * 2**0.5:.1f} s"
     assert is_near(shown.colours(shift=(0.3, 0))[1, 4], palette.MOVING)

@@ -8,8 +8,10 @@ import pytest
 from click.testing import CliRunner
 
 import trihex as th
+from tests.running.test_run_outputs import a_run_with_changes
 from tests.viewer.pages import Shown, is_near
 from trihex.cli import main
+from trihex.kernels.codes import LATE
 from trihex.pictures import palette
 from trihex.planners import make_plan
 from trihex.viewer import script
@@ -59,6 +61,55 @@ def test_it_plays_offline_and_asks_nobody(browser, tmp_path, plan):
     assert [url for url in asked if not url.startswith(("file:", "data:"))] == []
     assert len([url for url in asked if url.startswith("file:")]) == 1
     context.close()
+
+
+def test_a_run_plays_in_the_world_of_each_step(browser, tmp_path):
+    """Robots are where they were, late ones in their colour, walls and destinations come and go, seconds are told."""
+    run = a_run_with_changes()
+    th.write_page(run, tmp_path / "run.html")
+    shown = Shown(browser.new_page(viewport={"width": 1100, "height": 700}))
+    shown.page.goto((tmp_path / "run.html").as_uri())
+    shown.wait("app.doc")
+    report = th.make_run_report(run)
+    assert shown.table()["Total time"] == [f"{run.total_time:,}".replace(",", " ")]
+    assert "Gap to the optimum" not in shown.table() and shown.table()["Events"] == ["6"]
+    worlds = [(run.scenario.area.barriers, run.scenario.destinations), *run.worlds()]
+    sets = (palette.MOVING, palette.WAITING, palette.FINAL, palette.STRANDED, palette.SERIES[1])
+    for step, cells in enumerate(run.cells_by_step()):
+        shown.page.locator(".scrub").fill(str(step))
+        shown.wait(f"app.runs[0].playback.step === {step}")
+        barriers, destinations = worlds[step]
+        corners = shown.colours(shift=(0.38, 0.38))
+        np.testing.assert_array_equal(is_near(corners, palette.BARRIER), barriers)
+        ends = np.flatnonzero(is_near(corners, palette.DESTINATION))
+        assert ends.tolist() == np.sort(destinations).tolist()
+        colours = shown.colours(shift=(0.29, 0))  # beside the letters
+        seen = sum(is_near(colours, colour).ravel() for colour in sets) > 0
+        np.testing.assert_array_equal(np.flatnonzero(seen), np.unique(cells[cells >= 0]))
+        at, end = (number * report.step_seconds for number in (step, run.steps))
+        assert shown.text(".clock") == f"step {step} / {run.steps} · {at:.1f} s of {end:.1f} s"
+    late = int(np.flatnonzero((run.actions == LATE).any(axis=1))[0])
+    shown.page.locator(".scrub").fill(str(late))
+    shown.wait(f"app.runs[0].playback.step === {late}")
+    assert is_near(shown.colours(shift=(0.29, 0)), palette.SERIES[1]).any()
+    assert shown.faults == []
+
+
+def test_the_viewer_opens_a_run(open_viewer, tmp_path):
+    """As a file of its folder or as what it is started with; planning there makes a plan of what the run began with."""
+    run = a_run_with_changes()
+    th.write_run(run, tmp_path / "run.npz")
+    shown = open_viewer(run)
+    shown.wait("app.runs[0]")
+    assert shown.table()["Total time"] == [f"{run.total_time:,}".replace(",", " ")]
+    shown.press("Save…")
+    dialog = shown.page.get_by_role("dialog")
+    assert dialog.get_by_label("What to save").locator("option[value=plan]").is_disabled()
+    shown.page.keyboard.press("Escape")
+    shown.press("Open…")
+    shown.press("run.npz")
+    shown.wait("app.live && !app.job")  # what it did is done again, live, and can be led another way
+    assert shown.faults == []
 
 
 def test_two_plans_are_shared_side_by_side(open_viewer, browser, tmp_path, plan):

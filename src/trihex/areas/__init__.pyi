@@ -57,9 +57,15 @@ from .hexagons import (
 from .layout import (
     Layout as Layout,
 )
+from .nearest import (
+    nearest_free_cell as nearest_free_cell,
+)
 from .places import (
     cells_from as cells_from,
     numbers_from as numbers_from,
+)
+from .reaching import (
+    least_advance as least_advance,
 )
 from .regions import (
     make_regions as make_regions,
@@ -70,6 +76,9 @@ from .scenario import (
     FOLLOWINGS as FOLLOWINGS,
     Scenario as Scenario,
     random_robots as random_robots,
+)
+from .seconds import (
+    seconds_per_step as seconds_per_step,
 )
 from .tessellation import (
     CLOCKS as CLOCKS,

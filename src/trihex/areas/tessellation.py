@@ -150,6 +150,17 @@ class Tessellation(Record):
         return read_only(bends)
 
     @cached_property
+    def heading_of_direction(self) -> NDArray[np.float64]:
+        """Degrees from north, clockwise, from 0 to below 360, of each move, shape (2 orientations, directions)."""
+        headings = np.zeros(self.step_of_direction.shape[:2])
+        for side in range(2):
+            here = self.centre_of_cell(side, 0)
+            steps = self.step_of_direction[side]
+            there = self.centre_of_cell(side + steps[:, 0], steps[:, 1])
+            headings[side] = np.degrees(np.arctan2(there[0] - here[0], here[1] - there[1])) % 360
+        return read_only(np.round(headings, 9) % 360)
+
+    @cached_property
     def duration_of_direction(self) -> NDArray[np.int32]:
         """How many ticks (steps) a move in each direction lasts, shape (directions,); the same for both orientations.
 
@@ -171,6 +182,11 @@ class Tessellation(Record):
         if self.costs == "paper":
             return read_only(np.array([10 if row[4] is None else 14 for row in self._rows[0]], dtype=np.int32))
         return read_only(np.array([round(1000 * row[3]) for row in self._rows[0]], dtype=np.int32))
+
+    @property
+    def area_of_cell(self) -> float:
+        """Area of a cell, in square edge steps."""
+        return {"triangular": 3 * sqrt(3) / 4, "hexagonal": sqrt(3) / 2, "square": 1.0}[self.name]
 
     @cached_property
     def longest_move(self) -> float:

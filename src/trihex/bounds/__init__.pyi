@@ -1,3 +1,7 @@
+from .arrivals import (
+    EarliestArrivals as EarliestArrivals,
+    arrivals_bound as arrivals_bound,
+)
 from .bounds import (
     LowerBound as LowerBound,
     cut_bound as cut_bound,

@@ -22,6 +22,7 @@ from trihex.bounds.cuts import Cut, find_cuts
 from trihex.bounds.demand import Demand, make_demand
 from trihex.bounds.gates import GateNetwork, make_gate_network
 from trihex.bounds.meetings import find_meeting_nodes
+from trihex.bounds.queues import queue_past_cuts
 from trihex.bounds.rhythm import entry_headways, queue_up
 from trihex.bounds.serving import least_arrivals
 from trihex.errors import PlanError, check_type, check_whole
@@ -119,7 +120,7 @@ def _steps_past_gates(demand: Demand, most_gates: int, progress: Callable[[int, 
     cuts = []
     if entries.size * demand.nodes.count <= _MOST_SENT:
         cuts = find_cuts(demand, most_searches=_MOST_VISITS // (4 * free_cells) + 1)
-    queued = _steps_past_cuts(demand, cuts, entries)
+    queued = queue_past_cuts(demand, cuts, entries)
     visits = min(_MOST_VISITS, _VISITS_PER_ROBOT * demand.sites.size)
     gates = _choose_gates(demand, cuts, min(most_gates, visits // free_cells))
     horizon = int(queued.max(initial=0)) * 5 // 4 + 100
@@ -158,24 +159,6 @@ def _arrivals_past_gates(
     left = np.full(demand.sites.size - served.size, last + 1 - int(duration.max() - duration.min()))
     queue_up(left, entries)
     return np.concatenate([served, np.maximum(left, last + 1)])
-
-
-def _steps_past_cuts(demand: Demand, cuts: list[Cut], entries: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return a least number of steps of each robot in some order, if those behind a cut have to pass it one by one.
-
-    Where a robot passes the cut it is known how soon it can arrive. So the numbers of steps of those behind the first
-    cut are delayed until they are as far apart as the headways ask for, then together with the next ones at the next.
-    """
-    queued = demand.steps[:0]
-    is_behind = np.zeros(demand.sites.size, dtype=bool)
-    for cut in cuts:
-        new = cut.behind[~is_behind[cut.behind]]
-        is_behind[new] = True
-        queued = np.sort(np.concatenate([queued, demand.steps[new]]))
-        queue_up(queued, demand.nodes.headways(cut.nodes))
-    queued = np.sort(np.concatenate([queued, demand.steps[~is_behind]]))
-    queue_up(queued, entries)
-    return queued
 
 
 def _choose_gates(demand: Demand, cuts: list[Cut], most: int) -> NDArray[np.int32]:

@@ -7,10 +7,10 @@ from typing import Any
 
 import click
 
-from trihex.cli.options import PATH, area_options, read_judged, rule_options, wrong_use
+from trihex.cli.options import PATH, area_options, read_played, rule_options, wrong_use
 from trihex.cli.outputs import check_outputs
 from trihex.cli.progress import bar
-from trihex.cli.types import Whole
+from trihex.cli.types import Metres, Whole
 
 
 @click.command("animate")
@@ -25,7 +25,8 @@ from trihex.cli.types import Whole
 @click.option("--title", metavar="TEXT", help="Above the picture; '' leaves it out. [default: planner and area]")
 @click.option("--show-clock/--no-clock", default=True, help="Whether to tell the step and how many have arrived.")
 @click.option("--legend/--no-legend", default=True, help="Whether to explain the colours.")
-@click.option("--beside", type=PATH, metavar="PLAN", help="Pages: another plan, played beside it on the same clock.")
+@click.option("--speed", type=Metres(), default=1.0, help="Metres a second, for the clock. [default: 1.0]")
+@click.option("--beside", type=PATH, metavar="PLAN", help="Pages: another one, played beside it on the same clock.")
 def command(
     plan: Path,
     area: Path | None,
@@ -33,25 +34,28 @@ def command(
     beside: Path | None,
     **options: Any,
 ) -> None:
-    """Draw the robots of a plan on their way, coloured by their sets.
+    """Draw the robots of a plan or a run on their way, coloured by their sets.
 
     A page .html plays in any browser, offline, with pause, zoom and all numbers; the options of movies do not matter.
 
-    PLAN is .npz, which holds area and rules itself, or .csv, which needs AREA and the options that it was made with.
+    PLAN is a plan or a run as .npz, which holds area and rules itself, or a plan as .csv, which needs AREA and the
+    options that it was made with.
     """
     from trihex.pictures import MOVIE_SUFFIXES, write_animation
     from trihex.viewer import PAGE_SUFFIXES, write_page
 
-    drawn = {name: options.pop(name) for name in ("width", "frames_per_second", "max_frames", "title", "legend")}
+    drawn = {
+        name: options.pop(name) for name in ("width", "frames_per_second", "max_frames", "title", "legend", "speed")
+    }
     drawn["clock"] = options.pop("show_clock")
     check_outputs((out, (*MOVIE_SUFFIXES, *PAGE_SUFFIXES), "a movie"))
     if beside is not None and out.suffix.lower() not in PAGE_SUFFIXES:
         raise wrong_use(f"--beside is for pages (.html); {out} shows one plan")
-    shown = read_judged(plan, area, options)
+    shown = read_played(plan, area, options)
     if out.suffix.lower() in PAGE_SUFFIXES:
-        write_page(shown, out, beside=None if beside is None else read_judged(beside, area, options))
-        click.echo(f"{out}: {shown.scenario.robot_count} robots, {shown.steps} {shown.scenario.step_word}s")
+        write_page(shown, out, beside=None if beside is None else read_played(beside, area, options))
+        click.echo(f"{out}: {shown.robots.size} robots, {shown.steps} {shown.scenario.step_word}s")
         return
     with bar("drawing", "frames") as progress:
         write_animation(shown, out, progress=progress, **drawn)
-    click.echo(f"{out}: {shown.scenario.robot_count} robots, {shown.steps} {shown.scenario.step_word}s")
+    click.echo(f"{out}: {shown.robots.size} robots, {shown.steps} {shown.scenario.step_word}s")

@@ -8,8 +8,8 @@ from typing import Any
 import click
 
 from trihex.cli.group import DONE, NO
-from trihex.cli.options import PATH, area_options, read_judged, rule_options
-from trihex.cli.outputs import check_outputs
+from trihex.cli.options import PATH, area_options, read_played, rule_options
+from trihex.cli.outputs import check_outputs, tell_written
 from trihex.cli.progress import bar
 from trihex.cli.types import Whole
 
@@ -22,18 +22,21 @@ from trihex.cli.types import Whole
 @click.option("--limit", type=Whole(0), default=10, show_default=True, help="How many conflicts to list.")
 @click.option("--summary", type=PATH, metavar="FILE", help="The report as JSON; - writes it to the standard output.")
 def command(plan: Path, area: Path | None, limit: int, summary: Path | None, **options: Any) -> int:
-    """Tell whether a plan is safe.
+    """Tell whether a plan or a run is safe.
 
     PLAN is .npz, which holds area and rules itself, or .csv, which needs AREA and the options that it was made with.
-    Rules that are named here come before those of the file.
+    Rules that are named here come before those of the file. A run is judged in the world of each step.
 
     Exit status 1: the plan is unsafe.
     """
     from trihex.cli.texts import conflict_lines, corner_lines, verdict
     from trihex.judging import audit_plan, count_corner_moves
+    from trihex.running import Run
 
     check_outputs((summary, (), "a summary"))
-    judged = read_judged(plan, area, options, for_judge=True)
+    judged: Any = read_played(plan, area, options, for_judge=True)
+    if isinstance(judged, Run):
+        return _check_run(plan, judged, limit, summary)
     with bar("judging", "actions") as progress:
         audit = audit_plan(judged, limit=limit, progress=progress)
     if summary:
@@ -45,12 +48,31 @@ def command(plan: Path, area: Path | None, limit: int, summary: Path | None, **o
         counts = (count_corner_moves(judged, rule) for rule in ("no-cut", "no-squeeze"))
         for line in corner_lines(judged, *counts):
             click.echo(line)
+        tell_written(summary)
     if audit.is_clean:
         return DONE
     click.echo("\n".join(conflict_lines(audit, limit)), err=str(summary) == "-")
     if judged.jumps.size and plan.suffix.lower() != ".npz":
         _tell_likeness(plan, judged.scenario)
     return NO
+
+
+def _check_run(path: Path, run: Any, limit: int, summary: Path | None) -> int:
+    from trihex.cli.outputs import write_text
+    from trihex.cli.texts import conflict_lines, verdict
+    from trihex.formats import report_text
+    from trihex.running import audit_run, make_run_report
+
+    audit = audit_run(run, limit)
+    if summary:
+        write_text(report_text(make_run_report(run)), summary)
+    if str(summary) != "-":
+        arrived = int(run.arrived.sum())
+        click.echo(f"{path}: {arrived} of {run.robots.size} robots arrived in {run.steps} steps; {verdict(audit)}")
+        tell_written(summary)
+    if not audit.is_clean:
+        click.echo("\n".join(conflict_lines(audit, limit)), err=str(summary) == "-")
+    return DONE if audit.is_clean else NO
 
 
 def _tell_likeness(plan: Path, scenario: Any) -> None:

@@ -7,10 +7,19 @@ from typing import Any
 
 import click
 
-from trihex.cli.options import PATH, RULES, area_options, read_described, read_judged, rule_options, wrong_use
-from trihex.cli.outputs import check_outputs
+from trihex.cli.options import (
+    PATH,
+    RULES,
+    area_options,
+    of_waypoints,
+    read_described,
+    read_played,
+    rule_options,
+    waypoint_options,
+    wrong_use,
+)
+from trihex.cli.outputs import check_outputs, tell_written
 from trihex.cli.progress import bar
-from trihex.cli.types import Metres
 
 
 @click.command("convert")
@@ -20,17 +29,18 @@ from trihex.cli.types import Metres
 @area_options
 @rule_options
 @click.option("--waypoints", is_flag=True, help="Where each robot is when, in metres and seconds, instead of its plan.")
-@click.option("--speed", type=Metres(), default=1.0, show_default=True, help="Of the robots, in metres a second.")
-def command(source: Path, target: Path, area: Path | None, waypoints: bool, speed: float, **options: Any) -> None:
+@waypoint_options
+def command(source: Path, target: Path, area: Path | None, waypoints: bool, **options: Any) -> None:
     """Write what is in IN as the suffix of OUT says.
 
-    Plans: .csv, .npz and .parquet, .txt for mapf-visualizer; a plan in .csv or .parquet needs --area and the options
-    that it was made with. Waypoints of a plan: .csv (with --waypoints), .yaml, .json, .geojson, .sqlite. Areas: .map,
-    .txt, images and .toml. Scenarios: .toml and .txt. Starts: .csv. What a format cannot carry is refused.
+    Plans and runs: .csv, .npz and .parquet, .txt for mapf-visualizer; a plan in .csv or .parquet needs --area and the
+    options that it was made with. Waypoints of both: .csv (with --waypoints), .yaml, .json, .geojson, .sqlite. Areas:
+    .map, .txt, images and .toml. Scenarios: .toml and .txt. Starts: .csv. What a format cannot carry is refused.
     """
     from trihex.files import read_bytes
     from trihex.formats import FORMATS, PLAN_SUFFIXES, WAYPOINT_SUFFIXES, format_of, write_plan, write_waypoints
 
+    way = of_waypoints(options)
     form = FORMATS[format_of(read_bytes(source), source)]
     if form.holds == "starts":
         _convert_starts(source, target, area, options)
@@ -40,12 +50,13 @@ def command(source: Path, target: Path, area: Path | None, waypoints: bool, spee
             check_outputs((target, WAYPOINT_SUFFIXES, "waypoints"))
         else:
             check_outputs((target, dict.fromkeys((*PLAN_SUFFIXES, *WAYPOINT_SUFFIXES)), "a plan or waypoints"))
-        plan = read_judged(source, area, options, add_area="--area AREA")
+        plan = read_played(source, area, options, add_area="--area AREA")
         if waypoints or target.suffix.lower() not in PLAN_SUFFIXES:
-            write_waypoints(plan, target, speed=speed)
+            write_waypoints(plan, target, **way)
         else:
             with bar("writing", "parts") as progress:
                 write_plan(plan, target, progress=progress)
+        tell_written(target)
         return
     if area is not None or waypoints:
         raise wrong_use(f"--{'area' if area else 'waypoints'} is for plans; {source} holds none")
@@ -63,6 +74,7 @@ def _convert_starts(source: Path, target: Path, area: Path | None, options: dict
         raise wrong_use(f"{source} holds starts in an area: add --area AREA")
     own = read_described(area, options).area
     write_starts(own, read_starts(source, own), target)
+    tell_written(target)
 
 
 def _convert_area(source: Path, target: Path, options: dict[str, Any]) -> None:
@@ -74,6 +86,7 @@ def _convert_area(source: Path, target: Path, options: dict[str, Any]) -> None:
     check_outputs((target, AREA_SUFFIXES if is_area else SCENARIO_SUFFIXES, "an area" if is_area else "a scenario"))
     if is_area:
         write_area(draft.area, target)
+        tell_written(target)
         return
     scenario = draft.complete()
     if target.suffix.lower() == ".txt" and (lost := lost_in_letters(scenario)):
@@ -81,3 +94,4 @@ def _convert_area(source: Path, target: Path, options: dict[str, Any]) -> None:
     write_scenario(
         scenario, target, planner=draft.planner or "", planner_options=draft.planner_options, outputs=draft.outputs
     )
+    tell_written(target)

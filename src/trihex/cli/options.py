@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from trihex.cli.progress import bar
-from trihex.cli.types import Metres, Name, Place, Share, Whole
+from trihex.cli.types import Metres, Name, Place, Seconds, Share, Whole
 
 if TYPE_CHECKING:
     from trihex.areas import Area, Scenario
     from trihex.formats import Draft
-    from trihex.plans import Plan
+    from trihex.plans import Motion, Plan
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 PATH = click.Path(path_type=Path)
@@ -24,7 +24,7 @@ PATH = click.Path(path_type=Path)
 # What `rule_options` adds, and what `formats.options.AreaOptions` takes besides the tessellation.
 RULES = ("waiting_cost", "crossing", "corners", "destination_capacity", "clock", "following", "destination")
 _PLACE = (
-    *("cell_size", "robot_radius", "unknown", "threshold", "invert", "resolution", "align"),
+    *("cell_size", "robot_radius", "clearance", "unknown", "threshold", "invert", "resolution", "align"),
     *("walls", "exits", "rooms", "unit", "wall_thickness"),
 )
 
@@ -58,6 +58,7 @@ def area_options(command: Command) -> Command:
             type=Name("trihex.areas", "ALIGNS"),
             help="In metres: how the grid lies, from the corner or so that most connects. [default: corner]",
         ),
+        click.option("--clearance", type=Metres(), help="In metres: how far robots keep beyond touching. [default: 0]"),
         click.option("--robot-radius", type=Metres(), help="In metres: robots touch neither walls nor each other."),
         click.option("--cell-size", type=Metres(), help="Edge step in metres. [default: the least for --robot-radius]"),
         click.option(
@@ -139,6 +140,27 @@ def robot_options(command: Command) -> Command:
     ):
         command = option(command)
     return command
+
+
+def waypoint_options(command: Command) -> Command:
+    """Add how robots move along waypoints; what is not said is None."""
+    for option in (
+        click.option("--frame-id", metavar="NAME", help="What ROS calls the frame of .yaml and .json. [default: map]"),
+        click.option(
+            "--turn-time",
+            type=Seconds(),
+            help="Seconds in which all stand before each step, so that they can turn on the spot. [default: 0]",
+        ),
+        click.option("--speed", type=Metres(), help="Of the robots, in metres a second. [default: 1.0]"),
+    ):
+        command = option(command)
+    return command
+
+
+def of_waypoints(options: dict[str, Any]) -> dict[str, Any]:
+    """Return, and take out, those of the options that tell how waypoints are written."""
+    own = {name: options.pop(name, None) for name in ("speed", "turn_time", "frame_id")}
+    return {name: value for name, value in own.items() if value is not None}
 
 
 def gathered(name: str, noun: Callable[..., Any]) -> Callable[[Command], Command]:
@@ -283,6 +305,18 @@ def read_judged(
         replace(draft, robots=None).complete()
     scenario = claimed(draft.complete) if for_judge else draft.complete()
     return plan if scenario == plan.scenario else replace(plan, scenario=scenario, optimal=False)
+
+
+def read_played(path: Path, area: Path | None, options: dict[str, Any], **more: Any) -> Motion:
+    """Return the run at `path`, or the plan; see `read_judged`. A run says all itself."""
+    from trihex.formats import is_run, read_run
+
+    if not is_run(path):
+        return read_judged(path, area, options, **more)
+    told = [f"--{name.replace('_', '-')}" for name, value in options.items() if value not in (None, ())]
+    if area is not None or told:
+        raise wrong_use(f"{path} is a run and says all itself, so {told[0] if told else area} cannot be told")
+    return read_run(path)
 
 
 def _same_size(area: Area, own: Area, path: Path, of_plan: Path) -> Area:

@@ -35,3 +35,14 @@ def tell_written(*paths: Path | None) -> None:
     names = [str(path) for path in paths if path is not None and str(path) != "-"]
     if names:
         click.echo(f"written: {', '.join(names)}")
+
+
+def write_text(text: str, path: Path) -> None:
+    """Write text to a file, or to the standard output (-)."""
+    from trihex.files import new_file
+
+    if str(path) == "-":
+        click.echo(text, nl=False)
+        return
+    with new_file(path) as part:
+        part.write_text(text, encoding="utf-8")

@@ -9,19 +9,22 @@ from typing import Any, NamedTuple
 import click
 
 from trihex.cli.group import DONE, NO
+from trihex.cli.maps import Maps, check_maps, map_options, write_maps
 from trihex.cli.options import (
     PATH,
     area_options,
     complete,
     gathered,
+    of_waypoints,
     read_described,
     robot_options,
     rule_options,
+    waypoint_options,
     wrong_use,
 )
 from trihex.cli.outputs import check_outputs, tell_written
 from trihex.cli.progress import bar
-from trihex.cli.types import Metres, Name
+from trihex.cli.types import Name
 
 
 class Outputs(NamedTuple):
@@ -33,6 +36,8 @@ class Outputs(NamedTuple):
     waypoints: Path | None
     certificate: Path | None
     speed: float | None
+    turn_time: float | None
+    frame_id: str | None
 
 
 @click.command("plan")
@@ -42,19 +47,24 @@ class Outputs(NamedTuple):
 @robot_options
 @click.option("--planner", type=Name("trihex.planners", "PLANNERS"), help="Who plans. [default: fcost]")
 @click.option("--planner-option", metavar="NAME=VALUE", multiple=True, help="One of its options; may be repeated.")
+@click.option("--straight", is_flag=True, help="Then let robots turn less, with equal arrivals and at no more cost.")
 @click.option("--out", "plan", type=PATH, metavar="PLAN", help="The plan, as .csv or .npz.")
 @click.option("--summary", type=PATH, metavar="FILE", help="The report as JSON; - writes it to the standard output.")
 @click.option("--picture", type=PATH, metavar="FILE", help="The plan drawn, as .png, .svg or .pdf.")
 @click.option("--waypoints", type=PATH, metavar="FILE", help="Where each robot is when, in metres and seconds.")
 @click.option("--certificate", type=PATH, metavar="FILE", help="Tolls that prove an optimal plan, as .csv.")
-@click.option("--speed", type=Metres(), help="Of the robots, in metres a second. [default: 1.0]")
+@waypoint_options
+@map_options
 @click.option("--write-scenario", type=PATH, metavar="FILE", help="All that was planned, as a scenario .toml.")
 @gathered("named", Outputs)
+@gathered("maps", Maps)
 def command(
     area: Path,
     planner: str | None,
     planner_option: tuple[str, ...],
+    straight: bool,
     named: Outputs,
+    maps: Maps,
     write_scenario: Path | None,
     **options: Any,
 ) -> int:
@@ -70,6 +80,7 @@ def command(
 
     outputs: dict[str, Any] = {name: value for name, value in named._asdict().items() if value is not None}
     _check_outputs(outputs, write_scenario)
+    check_maps(maps)
     begin = perf_counter()
     draft = read_described(area, options)
     seconds = {"read": perf_counter() - begin}
@@ -83,8 +94,10 @@ def command(
     scenario = complete(draft, *_uses(planner, outputs))
     if "waypoints" in outputs and scenario.area.frame is None:
         raise wrong_use("--waypoints are in metres: add --cell-size")
-    report = _reported(scenario, planner, planner_options, seconds)
+    pace: dict[str, float] = {name: outputs[name] for name in ("speed", "turn_time") if name in outputs}
+    report = _reported(scenario, planner, planner_options, seconds, pace, straight=straight)
     _write(report, outputs)
+    write_maps(report.plan, maps, pace)
     if write_scenario:
         from trihex.formats import write_scenario as write_scenario_file
 
@@ -92,9 +105,8 @@ def command(
         write_scenario_file(scenario, write_scenario, planner=planner, planner_options=planner_options, outputs=kept)
     status = _told(report, outputs.get("summary"))
     if str(outputs.get("summary")) != "-":
-        tell_written(
-            *(outputs.get(name) for name in ("plan", "summary", "picture", "waypoints", "certificate")), write_scenario
-        )
+        files = (outputs.get(name) for name in ("plan", "summary", "picture", "waypoints", "certificate"))
+        tell_written(*files, *maps, write_scenario)
     return status
 
 
@@ -122,7 +134,7 @@ def _check_outputs(outputs: dict[str, Any], write_scenario: Path | None) -> None
     """Raise unless all that is to be written can be."""
     from trihex.formats import CERTIFICATE_SUFFIXES, PLAN_SUFFIXES, WAYPOINT_SUFFIXES
 
-    unnamed = [path for path in outputs.values() if write_scenario and not str(path).isprintable()]
+    unnamed = [value for value in outputs.values() if write_scenario and not str(value).isprintable()]
     if unnamed:
         raise wrong_use(f"--write-scenario can name no output but in printable UTF-8, not {str(unnamed[0])!a:.200}")
     if outputs.get("picture"):  # what draws is imported only for who draws
@@ -152,7 +164,7 @@ def _write(report: Any, outputs: dict[str, Any]) -> None:
         ground = report.plan.scenario.area.ground
         picture_of_plan(report.plan, ground=ground, crop=ground is not None).save(outputs["picture"])
     if "waypoints" in outputs:
-        write_waypoints(report.plan, outputs["waypoints"], speed=outputs.get("speed", 1.0))
+        write_waypoints(report.plan, outputs["waypoints"], **of_waypoints(dict(outputs)))
     if "certificate" in outputs:
         from trihex.optimum import make_certificate
 
@@ -161,12 +173,20 @@ def _write(report: Any, outputs: dict[str, Any]) -> None:
         write_certificate(certificate, outputs["certificate"])
 
 
-def _reported(scenario: Any, planner: str, planner_options: dict[str, Any], seconds: dict[str, float]) -> Any:
+def _reported(
+    scenario: Any,
+    planner: str,
+    planner_options: dict[str, Any],
+    seconds: dict[str, float],
+    pace: dict[str, float],
+    *,
+    straight: bool,
+) -> Any:
     """Plan, judge and report; add to `seconds` how long each part took."""
     from trihex.bounds import make_lower_bound
     from trihex.fields import make_n_scheme
     from trihex.judging import audit_plan, make_report
-    from trihex.planners import make_plan
+    from trihex.planners import make_plan, straighten
 
     begin = perf_counter()
     n_scheme = make_n_scheme(scenario)
@@ -174,6 +194,9 @@ def _reported(scenario: Any, planner: str, planner_options: dict[str, Any], seco
     begin = perf_counter()
     with bar("planning", "robots") as progress:
         plan = make_plan(scenario, planner, n_scheme=n_scheme, progress=progress, **planner_options)
+    if straight:
+        with bar("straightening", "robots") as progress:
+            plan = straighten(plan, progress=progress)
     seconds["plan"] = perf_counter() - begin
     begin = perf_counter()
     with bar("judging", "actions") as progress:
@@ -183,7 +206,7 @@ def _reported(scenario: Any, planner: str, planner_options: dict[str, Any], seco
     if not plan.optimal:
         with bar("bounding", "rounds") as progress:
             bound = make_lower_bound(n_scheme, progress=progress)
-    return make_report(plan, n_scheme=n_scheme, audit=audit, lower_bound=bound, seconds=seconds)
+    return make_report(plan, n_scheme=n_scheme, audit=audit, lower_bound=bound, seconds=seconds, **pace)
 
 
 def _parsed(planner_option: tuple[str, ...]) -> dict[str, Any]:

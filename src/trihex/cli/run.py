@@ -8,14 +8,17 @@ from typing import Any, NamedTuple
 import click
 
 from trihex.cli.group import DONE, NO
+from trihex.cli.maps import Maps, check_maps, map_options, write_maps
 from trihex.cli.options import (
     PATH,
     area_options,
     complete,
     gathered,
+    of_waypoints,
     read_described,
     robot_options,
     rule_options,
+    waypoint_options,
     wrong_use,
 )
 from trihex.cli.outputs import check_outputs, tell_written
@@ -51,6 +54,7 @@ class Outputs(NamedTuple):
     summary: Path | None
     picture: Path | None
     animation: Path | None
+    waypoints: Path | None
 
 
 @click.command("run")
@@ -70,12 +74,16 @@ class Outputs(NamedTuple):
 @click.option("--max-steps", type=Whole(1), default=1_000_000, help="Stop after so many steps. [default: 1000000]")
 @click.option("--out", type=PATH, metavar="RUN", help="What happened, as .npz.")
 @click.option("--summary", type=PATH, metavar="FILE", help="The report as JSON; - writes it to the standard output.")
-@click.option("--picture", type=PATH, metavar="FILE", help="What robots came to know, as .png, .svg or .pdf.")
-@click.option("--animation", type=PATH, metavar="FILE", help="The robots on their way, as .gif or .mp4.")
+@click.option("--picture", type=PATH, metavar="FILE", help="Paths, or what robots saw, as .png, .svg or .pdf.")
+@click.option("--animation", type=PATH, metavar="FILE", help="The robots on their way, as .gif, .mp4 or .html.")
+@click.option("--waypoints", type=PATH, metavar="FILE", help="Where each robot was when, in metres and seconds.")
+@waypoint_options
+@map_options
 @gathered("beginning", Beginning)
 @gathered("way", Way)
 @gathered("outputs", Outputs)
-def command(beginning: Beginning, way: Way, outputs: Outputs, max_steps: int, **options: Any) -> int:
+@gathered("maps", Maps)
+def command(beginning: Beginning, way: Way, outputs: Outputs, maps: Maps, max_steps: int, **options: Any) -> int:
     """Let robots run through a world that changes, is unknown to them, or makes them late.
 
     AREA is what `trihex plan` takes. In each step events happen, robots look around, and each is told one safe move.
@@ -85,7 +93,9 @@ def command(beginning: Beginning, way: Way, outputs: Outputs, max_steps: int, **
     from trihex.formats import read_events, write_run
     from trihex.running import make_run_report
 
+    pace = of_waypoints(options)
     _check_outputs(outputs)
+    check_maps(maps)
     if way.line_of_sight and way.sense is None:
         raise wrong_use("--line-of-sight is about what robots see: add --sense")
     events = read_events(way.events) if way.events else ()
@@ -103,22 +113,27 @@ def command(beginning: Beginning, way: Way, outputs: Outputs, max_steps: int, **
     if outputs.out is not None:
         with bar("writing", "bytes") as progress:
             write_run(run, outputs.out, progress=progress)
-    report = make_run_report(run, **told)
-    _draw(run, outputs)
+    timed: dict[str, Any] = {name: pace[name] for name in ("speed", "turn_time") if name in pace}
+    report = make_run_report(run, **told, **timed)
+    _write(report, outputs, pace)
+    write_maps(run, maps, timed)
     status = _told(report, outputs.summary, is_over=is_over)
     if str(outputs.summary) != "-":
-        tell_written(*outputs)
+        tell_written(*outputs, *maps)
     return status
 
 
 def _check_outputs(outputs: Outputs) -> None:
+    from trihex.formats import WAYPOINT_SUFFIXES
     from trihex.pictures import MOVIE_SUFFIXES, PICTURE_SUFFIXES
+    from trihex.viewer import PAGE_SUFFIXES
 
     check_outputs(
         (outputs.out, (".npz",), "a run"),
         (outputs.summary, (), "a summary"),
         (outputs.picture, PICTURE_SUFFIXES, "a picture"),
-        (outputs.animation, MOVIE_SUFFIXES, "a movie"),
+        (outputs.animation, (*MOVIE_SUFFIXES, *PAGE_SUFFIXES), "a movie"),
+        (outputs.waypoints, WAYPOINT_SUFFIXES, "waypoints"),
     )
 
 
@@ -182,28 +197,35 @@ def _followed(path: Path, delay: float, seed: int, most_steps: int) -> tuple[Any
     return make_passing_order(plan).run(delay=delay, seed=seed, most_steps=most_steps), plan
 
 
-def _draw(run: Any, outputs: Outputs) -> None:
-    from trihex.pictures import picture_of_run, write_run_animation
+def _write(report: Any, outputs: Outputs, pace: dict[str, Any]) -> None:
+    """Write and draw what happened."""
+    from trihex.formats import write_waypoints
+    from trihex.pictures import MOVIE_SUFFIXES, picture_of_plan, picture_of_run, write_run_animation
 
+    run = report.run
+    if outputs.waypoints is not None:
+        write_waypoints(run, outputs.waypoints, **pace)
     if outputs.picture is not None:
-        picture_of_run(run).save(outputs.picture)
-    if outputs.animation is not None:
+        (picture_of_plan if run.sensor is None else picture_of_run)(run).save(outputs.picture)
+    if outputs.animation is None:
+        return
+    if outputs.animation.suffix.lower() in MOVIE_SUFFIXES:
         with bar("drawing", "frames") as progress:
             write_run_animation(run, outputs.animation, progress=progress)
+        return
+    from trihex.viewer import write_report_page
+
+    write_report_page(report, outputs.animation)
 
 
 def _told(report: Any, summary: Path | None, *, is_over: bool) -> int:
     """Print the report, tell what is amiss, and return the exit status."""
-    from json import dumps
+    from trihex.formats import report_text, write_report
 
-    from trihex.files import new_file
-
-    numbers = report.as_dict()
-    text = dumps(numbers, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
     if summary is not None and str(summary) != "-":
-        with new_file(summary) as part:
-            part.write_text(text, encoding="utf-8")
-    click.echo(text if str(summary) == "-" else "\n".join(run_lines(report)), nl=str(summary) != "-")
+        write_report(report, summary)
+    is_for_machines = str(summary) == "-"
+    click.echo(report_text(report) if is_for_machines else "\n".join(run_lines(report)), nl=not is_for_machines)
     complaints = [str(one) for one in report.run.occurrences if not one.is_accepted]
     area = report.run.scenario.area
     complaints += [
@@ -227,6 +249,8 @@ def _told(report: Any, summary: Path | None, *, is_over: bool) -> int:
 
 def run_lines(report: Any) -> list[str]:
     """Return the report in a few lines."""
+    from trihex.cli.texts import seconds_line
+
     numbers = report.as_dict()
     price = "" if numbers["price"] is None else f": {100 * numbers['price']:+.1f} %"
     robots = f"{numbers['tessellation']}, {numbers['robots']} robots, planner {numbers['planner']}"
@@ -243,6 +267,8 @@ def run_lines(report: Any) -> list[str]:
         f"{100 * numbers['known']:.1f} % of the cells known, {numbers['repairs']} repairs touched "
         f"{numbers['cells_touched']} cells",
     ]
+    if numbers["last_arrival_seconds"] is not None:
+        lines.insert(2, seconds_line(numbers))
     if (took := numbers["milliseconds_a_step"]) is not None:
         lines.append(f"a step took {took['median']:.2f} ms in the median, {took['worst']:.2f} ms at worst")
     count = numbers["conflicts"]

@@ -9,13 +9,14 @@ if TYPE_CHECKING:
     from trihex.areas import Scenario
     from trihex.judging import Audit, Report
     from trihex.plans import Plan
+    from trihex.running import RunAudit
 
 _MOST_ROBOTS = 100
 
 
 def report_lines(report: Report) -> list[str]:
     """Return the report in a few lines."""
-    plan, scenario = report.plan, report.plan.scenario
+    plan, scenario, numbers = report.plan, report.plan.scenario, report.as_dict()
     area, tessellation = scenario.area, scenario.area.tessellation
     gap = "none" if report.gap is None else f"{100 * report.gap:.2f} %"
     seconds = ", ".join(f"{part} {took:.2f} s" for part, took in report.seconds.items())
@@ -27,8 +28,10 @@ def report_lines(report: Report) -> list[str]:
         f"total time {report.total_time} ({report.total_distance} moving, {report.total_waiting} waiting), "
         f"lower bound {report.lower_bound} ({report.lower_bound_name}), gap {gap}",
         *exit_lines(report.arrivals_of_exit, report.arrived_count),
+        *([seconds_line(numbers, scenario.step_word)] if numbers["last_arrival_seconds"] is not None else []),
         verdict(report.audit),
         *corner_lines(report.plan, report.corner_moves, report.squeezing_moves),
+        f"a robot turns by {numbers['turning']:.0f} degrees in the mean",
         *([seconds] if seconds else []),
     ]
 
@@ -42,6 +45,13 @@ def exit_lines(arrivals: Mapping[str, int], arrived: int) -> list[str]:
     return [f"exits: {', '.join(named)}"]
 
 
+def seconds_line(numbers: Mapping[str, Any], step_word: str = "step") -> str:
+    """Return when robots arrive in an area in metres, in a line."""
+    last, mean, step = (numbers[f"{name}_seconds"] for name in ("last_arrival", "mean_arrival", "step"))
+    lasts = f"a {step_word} lasts {step:.3g} s"
+    return f"the last arrives after {last:.1f} s, a robot in the mean after {mean:.1f} s; {lasts}"
+
+
 def corner_lines(plan: Plan, count: int, between: int) -> list[str]:
     """Return a line that says how many moves pass the corner of a barrier and what forbids it, or none."""
     if not count:
@@ -53,14 +63,14 @@ def corner_lines(plan: Plan, count: int, between: int) -> list[str]:
     return [f"{moves} the corner of {place}{squeezing}; --corners no-cut forbids it"]
 
 
-def verdict(audit: Audit) -> str:
+def verdict(audit: Audit | RunAudit) -> str:
     """Return what the judge found, in a line."""
     if audit.is_clean:
         return "safe: no conflicts"
     return f"unsafe: {audit.conflict_count} conflict{'s' * (audit.conflict_count != 1)}"
 
 
-def conflict_lines(audit: Audit, limit: int) -> list[str]:
+def conflict_lines(audit: Audit | RunAudit, limit: int) -> list[str]:
     """Return the first conflicts, a line each, and how many more there are."""
     lines = [str(conflict) for conflict in audit.conflicts[:limit]]
     more = audit.conflict_count - len(lines)

@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from trihex.cli.options import PATH, area_options, read_described, read_judged, robot_options, rule_options, wrong_use
+from trihex.cli.options import PATH, area_options, read_described, read_played, robot_options, rule_options, wrong_use
 from trihex.cli.types import Names, Whole
 
 
@@ -33,8 +33,8 @@ from trihex.cli.types import Names, Whole
 def command(file: Path | None, area: Path | None, port: int, no_browser: bool, **options: Any) -> None:
     """Open the viewer: paint, plan, play, compare and run live in a browser.
 
-    FILE is an area, a scenario or a plan; a plan as .csv or .parquet needs AREA as well. Without FILE there are some
-    rooms to play with. Files are opened and saved in the folder in which the command was started, and below it.
+    FILE is an area, a scenario, a plan or a run; a plan as .csv or .parquet needs AREA as well. Without FILE there are
+    some rooms to play with. Files are opened and saved in the folder in which the command was started, and below it.
     With --export it becomes a folder for any static host: plans to play and to compare, without a server.
 
     The server listens on this machine only, and answers only those who know the address that is told here.
@@ -54,7 +54,7 @@ def command(file: Path | None, area: Path | None, port: int, no_browser: bool, *
         is_plan = FORMATS[format_of(read_bytes(file), file)].holds == "plan"
         if area is not None and not is_plan:
             raise wrong_use(f"AREA belongs to a plan; {file} is none")
-        record = read_judged(file, area, options) if is_plan else read_described(file, options)
+        record = read_played(file, area, options) if is_plan else read_described(file, options)
     if planners and export is None:
         raise wrong_use("--planners is for --export")
     if export is not None:

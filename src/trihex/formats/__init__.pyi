@@ -39,6 +39,7 @@ from .runs.events import (
     write_events as write_events,
 )
 from .runs.npz import (
+    is_run as is_run,
     read_run as read_run,
     write_run as write_run,
 )
@@ -55,6 +56,9 @@ from .text import (
 from .toml import (
     complaint as complaint,
     read_toml as read_toml,
+)
+from .tracks.trajectories import (
+    read_trajectories as read_trajectories,
 )
 from .values_csv import (
     write_values as write_values,

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
+from pathlib import Path
 from typing import Any
 
 from trihex.areas import Area, Scenario
 from trihex.areas.coverage import Progress
 from trihex.errors import check_options, check_type
-from trihex.formats.registry import WRITERS, writer_of
-from trihex.plans import Plan
+from trihex.formats.registry import WRITERS, function_at, writer_of
+from trihex.plans import Motion, Plan
 
 AREA_SUFFIXES = tuple(WRITERS["an area"])
 SCENARIO_SUFFIXES = tuple(WRITERS["a scenario"])
@@ -42,25 +43,49 @@ def write_scenario(scenario: Scenario, path: str | os.PathLike[str], **planner: 
     writer_of("a scenario", path)(scenario, path, **planner)
 
 
-def write_plan(plan: Plan, path: str | os.PathLike[str], *, progress: Progress | None = None) -> None:
-    """Write a plan as ``.csv``, ``.npz`` or ``.parquet``; as ``.txt`` for mapf-visualizer, which knows only squares.
+def write_plan(plan: Motion, path: str | os.PathLike[str], *, progress: Progress | None = None) -> None:
+    """Write a plan or a run as ``.csv``, ``.npz`` or ``.parquet``; as ``.txt`` for mapf-visualizer, on squares only.
+
+    A run as ``.npz`` is what `write_run` writes. Its tables hold what happened, and cannot be read back as a plan.
 
     Parameters
     ----------
-    plan : Plan
+    plan : Plan or Run
     path : path
     progress : callable, optional
         Called with (done, total) while a CSV or npz is written.
     """
-    check_type("plan", plan, Plan)
-    writer_of("a plan", path)(plan, path, progress=progress)
+    check_type("plan", plan, Motion)
+    write = writer_of("a plan", path)
+    if not isinstance(plan, Plan) and Path(path).suffix.lower() == ".npz":
+        write = function_at("runs.npz.write_run")
+    write(plan, path, progress=progress)
 
 
-def write_waypoints(plan: Plan, path: str | os.PathLike[str], *, speed: float = 1.0) -> None:
+def write_waypoints(
+    plan: Motion,
+    path: str | os.PathLike[str],
+    *,
+    speed: float = 1.0,
+    turn_time: float = 0.0,
+    frame_id: str = "map",
+) -> None:
     """Write where each robot is at which second, in metres; no robot is faster than `speed` metres in a second.
 
     ``.csv`` has a row for each robot and step, ``.yaml`` and ``.json`` a nav_msgs/Path for each robot, ``.geojson`` a
     LineString for each robot; ``.sqlite`` is for JuPedSim and PedPy.
+
+    Parameters
+    ----------
+    plan : Plan or Run
+        A run as it happened: robots that were late stand, those that joined later begin later.
+    path : path
+    speed : float
+        Metres in a second.
+    turn_time : float
+        Seconds before each step in which all robots stand, and each may turn on the spot.
+    frame_id : str
+        The frame that a nav_msgs/Path names.
 
     Raises
     ------
@@ -71,7 +96,7 @@ def write_waypoints(plan: Plan, path: str | os.PathLike[str], *, speed: float = 
     """
     from trihex.formats.tracks.tracks import make_tracks
 
-    check_type("plan", plan, Plan)
+    check_type("plan", plan, Motion)
 
     write = writer_of("waypoints", path)
-    write(make_tracks(plan, speed), path)
+    write(make_tracks(plan, speed, turn_time=turn_time, frame_id=frame_id), path)

@@ -15,3 +15,7 @@ from .report import (
     Report as Report,
     make_report as make_report,
 )
+from .score import (
+    Score as Score,
+    make_score as make_score,
+)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Claim, count_by_zone
+from trihex.areas import Claim, count_by_zone, seconds_per_step
 from trihex.bounds import LowerBound, distance_bound, make_lower_bound
 from trihex.errors import check_type
 from trihex.fields import NScheme, make_n_scheme
@@ -18,7 +18,7 @@ from trihex.judging.audit import Audit, audit_plan
 from trihex.judging.corners import count_corner_moves
 from trihex.kernels.needs import use_of
 from trihex.kernels.preparing import prepare
-from trihex.plans import Plan
+from trihex.plans import Plan, seconds_of_arrivals, turning_of_robot
 from trihex.record import Record, counted, html_table
 
 PARTS = ("read", "field", "plan", "audit")
@@ -39,6 +39,8 @@ class Report(Record):
         Robots that cannot arrive, ascending.
     seconds : mapping
         How long parts of the work took, by the names of `PARTS`; what is not known is missing.
+    step_seconds : float, optional
+        How long a step lasts, in an area in metres.
     """
 
     plan: Plan
@@ -46,6 +48,7 @@ class Report(Record):
     bound: LowerBound
     unreachable_robots: NDArray[np.int64]
     seconds: Mapping[str, float] = field(default_factory=dict)
+    step_seconds: float | None = None
 
     def in_words(self) -> str:
         """Return the words of the plan, the lower bound, the gap and the conflicts."""
@@ -86,6 +89,12 @@ class Report(Record):
     def squeezing_moves(self) -> int:
         """Those of the corner moves with a barrier on either side, which corners="no-squeeze" forbids."""
         return count_corner_moves(self.plan, "no-squeeze") if self.corner_moves else 0
+
+    @cached_property
+    def turning(self) -> float:
+        """By how many degrees a robot that arrives turns on its way, in the mean."""
+        own = turning_of_robot(self.plan)[self.plan.arrived]
+        return float(own.mean()) if own.size else 0.0
 
     @property
     def steps(self) -> int:
@@ -170,6 +179,8 @@ class Report(Record):
             "conflicts": self.audit.conflict_count,
             "corner_moves": self.corner_moves,
             "squeezing_moves": self.squeezing_moves,
+            "turning": round(self.turning, 3),
+            **seconds_of_arrivals(self.plan, self.step_seconds),
             "seconds": {part: self.seconds.get(part) for part in PARTS},
         }
 
@@ -181,6 +192,8 @@ def make_report(
     audit: Audit | None = None,
     lower_bound: LowerBound | None = None,
     seconds: Mapping[str, float] | None = None,
+    speed: float = 1.0,
+    turn_time: float = 0.0,
 ) -> Report:
     """Audit `plan`, bound it from below, and put its numbers together.
 
@@ -191,6 +204,8 @@ def make_report(
         Made here unless they are there already.
     seconds : mapping, optional
         How long the parts of the work took, by the names of `PARTS`.
+    speed, turn_time : float
+        Of robots in an area in metres, as for `write_waypoints`; then the report tells seconds.
 
     Examples
     --------
@@ -211,7 +226,8 @@ def make_report(
     audit = audit_plan(plan) if audit is None else audit
     # Where the optimum is proven no bound is asked for, so a cheap one will do until that is known.
     cheap = distance_bound(n_scheme)
-    report = Report(plan, audit, lower_bound or cheap, n_scheme.unreachable_robots, dict(seconds or {}))
+    lasts = seconds_per_step(plan.scenario.area, speed, turn_time) if plan.scenario.area.frame is not None else None
+    report = Report(plan, audit, lower_bound or cheap, n_scheme.unreachable_robots, dict(seconds or {}), lasts)
     if lower_bound is None and not report.optimal and not isinstance(plan.scenario, Claim):
         report = replace(report, bound=make_lower_bound(n_scheme))
     return report

@@ -7,6 +7,8 @@ from .axes import (
 from .charts import (
     draw_arrivals as draw_arrivals,
     draw_comparison as draw_comparison,
+    draw_exits as draw_exits,
+    draw_score as draw_score,
 )
 from .film import (
     MOVIE_SUFFIXES as MOVIE_SUFFIXES,
@@ -16,6 +18,11 @@ from .fits import (
 )
 from .generations import (
     draw_generations as draw_generations,
+)
+from .map_picture import (
+    picture_of_density as picture_of_density,
+    picture_of_lost as picture_of_lost,
+    picture_of_waiting as picture_of_waiting,
 )
 from .movie import (
     write_animation as write_animation,

@@ -11,10 +11,13 @@ from typing import Any
 
 import numpy as np
 
+from trihex.areas import seconds_per_step
+from trihex.bounds import EarliestArrivals
 from trihex.errors import FormatError, check_many, check_type
+from trihex.judging import Score
 from trihex.pictures.axes import fit_legend, keep_room, matplotlib, new_axes, rgb, series
 from trihex.pictures.palette import INK
-from trihex.plans import Plan
+from trihex.plans import Motion, make_exits
 
 # What is asked of a run beside its robots: rows that differ in one of these never become one bar.
 _RULES = ("neighbourhood", "costs", "waiting_cost", "crossing", "corners", "destination_capacity", "clock", "following")
@@ -29,21 +32,95 @@ Row = Mapping[str, Any]
 
 
 def draw_arrivals(
-    plans: Plan | Sequence[Plan], ax: Any = None, *, title: str | None = None, legend: bool = True
+    plans: Motion | Sequence[Motion],
+    ax: Any = None,
+    *,
+    title: str | None = None,
+    legend: bool = True,
+    speed: float = 1.0,
 ) -> Any:
-    """Draw how many robots have arrived after each step, a line for each plan; return the Axes."""
-    plans = [plans] if isinstance(plans, Plan) else plans
-    check_many("plans", plans, Plan, "a plan or a list of plans")
+    """Draw how many robots have arrived after each step, a line for each plan or run; return the Axes.
+
+    If all areas are in metres the time is in seconds, as robots take that are as fast as `speed` metres in a second.
+    """
+    plans = [plans] if isinstance(plans, Motion) else plans
+    check_many("plans", plans, Motion, "a plan or a list of plans")
     for number, plan in enumerate(plans):
-        check_type(f"plans[{number}]", plan, Plan)
-    ax = new_axes(ax)
+        check_type(f"plans[{number}]", plan, Motion)
+    ax, in_seconds = new_axes(ax), all(plan.scenario.area.frame is not None for plan in plans)
     for number, plan in enumerate(plans):
+        unit = seconds_per_step(plan.scenario.area, speed) if in_seconds else 1
         steps = np.sort(plan.arrival_step_of_robot[plan.arrived])
         arrived = np.append(np.arange(steps.size + 1), steps.size)
         label = f"{plan.planner or 'plan'}, {plan.scenario.area.tessellation.name}"
-        ax.step([0, *steps, plan.steps], arrived, where="post", color=series(number), label=label)
-    ax.set_xlabel(" or ".join(sorted({plan.scenario.step_word for plan in plans})) or "step")
+        times = np.array([0, *steps, plan.steps]) * unit
+        ax.step(times, arrived, where="post", color=series(number), label=label)
+    words = " or ".join(sorted({plan.scenario.step_word for plan in plans})) or "step"
+    ax.set_xlabel("seconds" if in_seconds else words)
     ax.set_ylabel("robots arrived")
+    ax.set_ylim(bottom=0)
+    if title:
+        ax.set_title(title)
+    if legend:
+        ax.legend()
+    return ax
+
+
+def draw_exits(
+    plan: Motion,
+    earliest: EarliestArrivals | None = None,
+    ax: Any = None,
+    *,
+    title: str | None = None,
+    legend: bool = True,
+    speed: float = 1.0,
+) -> Any:
+    """Draw N(t), how many robots have arrived, for each exit and in all, beside what no plan can beat; return the Axes.
+
+    Parameters
+    ----------
+    plan : Plan or Run
+    earliest : EarliestArrivals, optional
+        Of `make_earliest_arrivals`: a line that no other crosses. It holds in the world as it was at the beginning.
+    ax : Axes, optional
+    title : str, optional
+    legend : bool
+    speed : float
+        Metres in a second: in a place in metres the time is in seconds.
+    """
+    check_type("plan", plan, Motion)
+    check_type("earliest", earliest, EarliestArrivals, type(None))
+    ax, exits, area = new_axes(ax), make_exits(plan), plan.scenario.area
+    unit = 1.0 if area.frame is None else seconds_per_step(area, speed)
+    times = np.arange(plan.steps + 1) * unit
+    if earliest is not None:
+        words = "least possible" if earliest.name == "optimum" else f"bound ({earliest.name})"
+        ax.step(times, earliest.curve(plan.steps), where="post", color=rgb(INK), linestyle="--", label=words)
+    if len(exits.names) > 1:
+        ax.step(times, exits.total, where="post", color=rgb(INK), label="all exits")
+    for number, (name, arrived) in enumerate(zip(exits.names, exits.arrived, strict=True)):
+        ax.step(times, arrived, where="post", color=series(number), label=name)
+    ax.set_xlabel(plan.scenario.step_word if area.frame is None else "seconds")
+    ax.set_ylabel("robots arrived")
+    ax.set_ylim(bottom=0)
+    if title:
+        ax.set_title(title)
+    if legend:
+        ax.legend()
+    return ax
+
+
+def draw_score(score: Score, ax: Any = None, *, title: str | None = None, legend: bool = True) -> Any:
+    """Draw N(t) of a recorded crowd beside the bound that it cannot pass; return the Axes."""
+    check_type("score", score, Score)
+    ax, arrivals = new_axes(ax), score.arrivals
+    end = max(float(times.max(initial=0)) for times in (arrivals, score.earliest))
+    for times, words, style in ((score.earliest, "bound", "--"), (arrivals, score.trajectories.name, "-")):
+        counts = np.append(np.arange(times.size + 1), times.size)
+        colour = rgb(INK) if style == "--" else series(0)
+        ax.step([0, *times, end], counts, where="post", color=colour, linestyle=style, label=words)
+    ax.set_xlabel("seconds")
+    ax.set_ylabel("persons arrived")
     ax.set_ylim(bottom=0)
     if title:
         ax.set_title(title)

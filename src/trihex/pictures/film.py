@@ -14,6 +14,7 @@ from typing import ClassVar, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from trihex.areas import Scenario, seconds_per_step
 from trihex.errors import PlanError
 from trihex.files import new_file, suffix_of
 from trihex.pictures.gif import GifWriter
@@ -129,6 +130,15 @@ class Film(ABC):
         room = self.sheet.width - 2 * MARGIN
         size = int(min(TEXT_SIZE, TEXT_SIZE * room / width_of(text, TEXT_SIZE)))
         return Words(*self.sheet.subtitle_at, text, size)
+
+
+def step_words(scenario: Scenario, step: int, steps: int, speed: float) -> str:
+    """Return which step (tick) is shown, and in a place in metres which second."""
+    area, words = scenario.area, f"{scenario.step_word} {step} of {steps}"
+    if area.frame is None:
+        return words
+    now, last = (number * seconds_per_step(area, speed) for number in (step, steps))
+    return f"{words}, {now:.1f} of {last:.1f} s"
 
 
 def write_film(film: Film, path: str | os.PathLike[str], frames_per_second: int, progress: Progress | None) -> None:

@@ -9,6 +9,7 @@ from trihex.areas import Area, Scenario
 from trihex.kernels.codes import NOT_REACHED
 from trihex.pictures.palette import DESTINATION, INK, PAGE, STRANDED, Colour, is_light
 from trihex.pictures.scene import Discs, Mark, Texts, centres_of, ink_on
+from trihex.pictures.setting import Setting
 from trihex.pictures.sheet import width_of
 
 # In pixels per edge step, the diameter of the circle inside a cell.
@@ -20,7 +21,7 @@ LETTERS = "abcdefghijklmnopqrstuvwxyz"
 
 
 def destination_marks(
-    scenario: Scenario, scale: float, *, letters: bool = True, over_lines: bool = False
+    scenario: Scenario | Setting, scale: float, *, letters: bool = True, over_lines: bool = False
 ) -> list[Mark]:
     """Return a D for each destination; where cells are too small, a disc in a white ring, so that it is found.
 
@@ -35,7 +36,7 @@ def destination_marks(
     return [*discs, Texts(x, y, ("D",) * x.size, round(0.5 * scale), PAGE)]
 
 
-def robot_marks(scenario: Scenario, robots: NDArray[np.int64], colour: Colour, scale: float) -> list[Mark]:
+def robot_marks(scenario: Scenario | Setting, robots: NDArray[np.int64], colour: Colour, scale: float) -> list[Mark]:
     """Return a disc at the start of each of `robots`; where they are few, with the letter of the paper."""
     if not robots.size:
         return []
@@ -46,12 +47,12 @@ def robot_marks(scenario: Scenario, robots: NDArray[np.int64], colour: Colour, s
     return marks
 
 
-def has_letters(scenario: Scenario, scale: float) -> bool:
+def has_letters(scenario: Scenario | Setting, scale: float) -> bool:
     """Tell whether robots are few and cells large enough for the letters of the paper."""
     return scale >= LETTERS_FROM and scenario.robot_count <= len(LETTERS)
 
 
-def stranded_marks(scenario: Scenario, robots: NDArray[np.int64], scale: float) -> list[Mark]:
+def stranded_marks(scenario: Scenario | Setting, robots: NDArray[np.int64], scale: float) -> list[Mark]:
     """Return a disc for each of `robots`, which never arrive, with its letter or, where that fits, its number."""
     if not robots.size:
         return []
@@ -62,7 +63,7 @@ def stranded_marks(scenario: Scenario, robots: NDArray[np.int64], scale: float) 
     return [Discs(x, y, 0.48, STRANDED), Texts(x, y, tuple(map(str, robots.tolist())), round(size, 1), PAGE)]
 
 
-def leave_room(scenario: Scenario, scale: float) -> bool:
+def leave_room(scenario: Scenario | Setting, scale: float) -> bool:
     """Tell whether discs for all robots leave half of the picture free, or are no larger than cells."""
     radius = max(ROBOT_RADIUS * scale, LEAST_ROBOT)
     pixels = scenario.area.cell_count * scale * scale
@@ -146,10 +147,10 @@ def compass_of(area: Area, directions: NDArray[np.uint16], count: int) -> NDArra
     return np.asarray(index[area.tessellation.orientation_of_cell(x, y), directions])
 
 
-def base_cells(record: Area | Scenario, free: int, barrier: int, destination: int) -> NDArray[np.uint8]:
+def base_cells(record: Area | Scenario | Setting, free: int, barrier: int, destination: int) -> NDArray[np.uint8]:
     """Return which of the three each cell is, shape (height, width)."""
     area = record if isinstance(record, Area) else record.area
     cells = np.where(area.barriers, np.uint8(barrier), np.uint8(free))
-    if isinstance(record, Scenario):
+    if not isinstance(record, Area):
         cells.reshape(-1)[record.destinations] = destination
     return cells

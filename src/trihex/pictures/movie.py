@@ -12,21 +12,24 @@ from numpy.typing import NDArray
 
 from trihex.errors import check_type
 from trihex.pictures.area_picture import picture_of_area
-from trihex.pictures.film import MOST_SIDE, Film, Groups, Progress, write_film
+from trihex.pictures.film import MOST_SIDE, Film, Groups, Progress, step_words, write_film
 from trihex.pictures.marks import LETTERS, LETTERS_FROM
 from trihex.pictures.palette import FINAL, MOVING, STRANDED, WAITING
 from trihex.pictures.png import paint_disc_marks, write_words
+from trihex.pictures.run_movie import RunFilm
+from trihex.pictures.run_picture import run_title
 from trihex.pictures.scene import Key, Scene, centres_of, ink_on, scale_for
 from trihex.pictures.sheet import Words
 from trihex.pictures.ways import places_between
-from trihex.plans import Plan, Walk
+from trihex.plans import Motion, Plan, Walk
+from trihex.running import Run
 
 _FRAMES_A_MOVE = 8
 _SIDE = 600.0  # the longest side of a movie unless the caller names a width
 
 
 def write_animation(
-    plan: Plan,
+    plan: Motion,
     path: str | os.PathLike[str],
     *,
     width: int | None = None,
@@ -35,6 +38,7 @@ def write_animation(
     legend: bool = True,
     frames_per_second: int = 20,
     max_frames: int = 240,
+    speed: float = 1.0,
     progress: Progress | None = None,
 ) -> None:
     """Write a movie of the robots moving, coloured by their sets: moving (filled), waiting, arrived (final).
@@ -45,7 +49,8 @@ def write_animation(
 
     Parameters
     ----------
-    plan : Plan
+    plan : Plan or Run
+        Of a run, what happened, in the world as it was in each step; see `write_run_animation`.
     path : path
         .gif, or .mp4 (needs the extra ``video``).
     width : int, optional
@@ -53,13 +58,15 @@ def write_animation(
     title : str, optional
         Default: planner and area. An empty title is left out.
     clock : bool
-        Whether to tell the step and how many robots have arrived.
+        Whether to tell the step, in a place in metres the second, and how many robots have arrived.
     legend : bool
         Whether to explain the colours.
     frames_per_second : int
         1 to 50.
     max_frames : int
         Bounds the time it takes and the size of the file; at least 2.
+    speed : float
+        Metres in a second, for the seconds of places in metres.
     progress : function of (frames done, frames in total), optional
 
     Raises
@@ -71,8 +78,18 @@ def write_animation(
     MissingExtraError
         If an .mp4 is asked for without PyAV.
     """
-    check_type("plan", plan, Plan)
-    write_film(PlanFilm(plan, max_frames, width, title, clock, legend), path, frames_per_second, progress)
+    check_type("plan", plan, Motion)
+    film = film_of(plan, max_frames, width, title, clock=clock, legend=legend, speed=speed)
+    write_film(film, path, frames_per_second, progress)
+
+
+def film_of(
+    motion: Motion, max_frames: int, width: int | None, title: str | None, *, clock: bool, legend: bool, speed: float
+) -> Film:
+    """Return the film of a plan or of a run; parameters as for `write_animation`."""
+    if isinstance(motion, Run):
+        return RunFilm(motion, max_frames, width, run_title(motion) if title is None else title, clock, legend, speed)
+    return PlanFilm(motion, max_frames, width, title, clock, legend, speed)  # type: ignore[arg-type]  # no run: a plan
 
 
 @dataclass(frozen=True)
@@ -85,6 +102,7 @@ class PlanFilm(Film):
     title: str | None
     clock: bool
     legend: bool
+    speed: float = 1.0
 
     colours = (STRANDED, FINAL, WAITING, MOVING)
 
@@ -175,9 +193,6 @@ class PlanFilm(Film):
         if self.clock:
             arrival = self.plan.arrival_step_of_robot
             arrived = np.count_nonzero((arrival >= 0) & (arrival <= step))
-            words.append(
-                self.clock_words(
-                    f"{self.plan.scenario.step_word} {step} of {self.plan.steps}, arrived {arrived} of {arrival.size}"
-                )
-            )
+            when = step_words(self.plan.scenario, step, self.plan.steps, self.speed)
+            words.append(self.clock_words(f"{when}, arrived {arrived} of {arrival.size}"))
         return write_words(frame, words)

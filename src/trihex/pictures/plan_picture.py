@@ -13,8 +13,9 @@ from trihex.pictures.legend import barrier_colour, barrier_keys, colours_of
 from trihex.pictures.palette import DESTINATION, FREE, MOVING, SERIES, STRANDED
 from trihex.pictures.picture import Picture, titled
 from trihex.pictures.scene import Key, Lines, Mark, Ramp, Scene, colour_rows, scale_for
+from trihex.pictures.setting import setting_of
 from trihex.pictures.ways import robot_paths
-from trihex.plans import Plan, visits_of
+from trihex.plans import Motion, Plan, visits_of
 
 PATHS_FROM = 8.0  # pixels per edge step
 MOST_PATHS, MOST_PATH_STEPS = 26, 10_000
@@ -22,7 +23,7 @@ _SHADES = 240
 
 
 def picture_of_plan(
-    plan: Plan,
+    plan: Motion,
     *,
     width: int | None = None,
     title: str | None = None,
@@ -31,11 +32,12 @@ def picture_of_plan(
     ground: Ground | None = None,
     crop: bool = False,
 ) -> Picture:
-    """Return the picture of a plan: the paths of its robots, or how often each cell is visited.
+    """Return the picture of a plan or a run: the paths of its robots, or how often each cell is visited.
 
     Parameters
     ----------
-    plan : Plan
+    plan : Plan or Run
+        A run with barriers and destinations as they were in its last step.
     width, title, legend, ground
         As for `picture_of_area`.
     paths : bool, optional
@@ -43,11 +45,12 @@ def picture_of_plan(
     crop : bool
         Whether to show only the part of the area that holds free cells, if that is less than half of it.
     """
-    check_type("plan", plan, Plan)
+    check_type("plan", plan, Motion)
     whole = plan.scenario.area
-    if crop:
+    if crop and isinstance(plan, Plan):
         plan = _cropped(plan)
-    scenario, area = plan.scenario, plan.scenario.area
+    scenario = setting_of(plan)
+    area, is_plan = scenario.area, isinstance(plan, Plan)
     scale = scale_for(area, width)
     if paths is None:
         paths = scenario.robot_count <= MOST_PATHS and plan.steps <= MOST_PATH_STEPS and scale >= PATHS_FROM
@@ -58,7 +61,7 @@ def picture_of_plan(
     keys: list[Key | Ramp] = [*barrier_keys(area, ground), Key("cell", DESTINATION, "destination")]
     marks: list[Mark] = make.destination_marks(scenario, scale, over_lines=paths)
     if paths:
-        for robot, path in enumerate(robot_paths(plan)):
+        for robot, path in enumerate(robot_paths(plan, area)):
             colour = SERIES[robot % len(SERIES)] if plan.arrived[robot] else STRANDED
             marks.append(Lines((path,), max(2.0, 0.06 * scale), colour))
             if plan.arrived[robot]:
@@ -78,10 +81,11 @@ def picture_of_plan(
     colours = np.vstack([shades, colour_rows([FREE, barrier_colour(ground), DESTINATION])])
     bold = (*range(first), first + 1, first + 2)
     scene = Scene(area, cells, colours, scale, bold, tuple(marks), tuple(keys), ground=ground)
-    part = "" if area is whole else f" of {whole.width} x {whole.height}"
+    part = "" if area.cell_count == whole.cell_count else f" of {whole.width} x {whole.height}"
     more = f"{part}, {arrived.size} of {scenario.robot_count} robots arrive"
-    more += f", {plan.steps} {scenario.step_word}s, total time {plan.total_time}"
-    return titled(scene, title, f"Plan ({plan.planner})" if plan.planner else "Plan", more, legend)
+    more += f", {plan.steps} {plan.scenario.step_word}s, total time {plan.total_time}"
+    what = "Plan" if is_plan else "Run"
+    return titled(scene, title, f"{what} ({plan.planner})" if plan.planner else what, more, legend)
 
 
 def _cropped(plan: Plan) -> Plan:

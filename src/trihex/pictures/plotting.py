@@ -21,7 +21,7 @@ from trihex.pictures.axes import PIXELS_PER_POINT, draw_legend, draw_scene, new_
 from trihex.pictures.picture import Picture
 from trihex.pictures.plan_picture import picture_of_plan
 from trihex.pictures.scheme_picture import picture_of_d_scheme, picture_of_generation, picture_of_n_scheme
-from trihex.plans import Plan
+from trihex.plans import Motion
 
 _LONGER_SIDE, _MOST_STEP = 8.0, 0.9  # of a new figure and of an edge step, in inches
 
@@ -66,9 +66,9 @@ def draw_d_scheme(d_scheme: DScheme, ax: Any = None, *, title: str | None = None
     return draw_on(lambda width: picture_of_d_scheme(d_scheme, width=width, title=title), area, ax, legend)
 
 
-def draw_plan(plan: Plan, ax: Any = None, *, title: str | None = None, legend: bool = True) -> Any:
+def draw_plan(plan: Motion, ax: Any = None, *, title: str | None = None, legend: bool = True) -> Any:
     """Draw the paths of a few robots, or how often many robots visit each cell; return the Axes."""
-    check_type("plan", plan, Plan)
+    check_type("plan", plan, Motion)
     return draw_on(lambda width: picture_of_plan(plan, width=width, title=title), plan.scenario.area, ax, legend)
 
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from trihex.errors import check_type
 from trihex.kernels.codes import LATE, WAIT
 from trihex.pictures import marks as make
-from trihex.pictures.film import MOST_SIDE, Film, Groups, Progress, write_film
+from trihex.pictures.film import MOST_SIDE, Film, Groups, Progress, step_words, write_film
 from trihex.pictures.legend import scale_bars
 from trihex.pictures.palette import DESTINATION, MOVING, PAGE, SERIES, STRANDED, WAITING
 from trihex.pictures.png import paint, paint_disc_marks, write_words
@@ -53,6 +53,9 @@ class RunFilm(Film):
     max_frames: int
     width: int | None
     title: str
+    clock: bool = True
+    legend: bool = True
+    speed: float = 1.0
 
     colours = (STRANDED, LATE_COLOUR, WAITING, MOVING)
     most_substeps = 6
@@ -79,9 +82,9 @@ class RunFilm(Film):
             scale,
             (1, 3, 4),
             (),
-            (*keys, *class_keys(run), *scale_bars(area, scale)),
+            (*keys, *class_keys(run), *scale_bars(area, scale)) if self.legend else (),
             self.title,
-            "clock",
+            "clock" if self.clock else "",
         )
 
     @property
@@ -137,10 +140,10 @@ class RunFilm(Film):
         destinations: NDArray[np.int64],
     ) -> NDArray[np.uint8]:
         run, area, scale = self.run, self.run.scenario.area, self.scene.scale
-        at = np.where(cells >= 0, cells, self._last_cells)
+        at = np.where(cells >= 0, cells, run.last_cell_of_robot)
         x, y = centres_of(area, at)
         if share:
-            next_cells = np.where(later >= 0, later, np.where(cells >= 0, self._last_cells, at))
+            next_cells = np.where(later >= 0, later, np.where(cells >= 0, run.last_cell_of_robot, at))
             x, y = places_between(area, at, next_cells, share)
         frame = background.copy()
         marks: tuple[Mark, ...] = ()
@@ -151,18 +154,10 @@ class RunFilm(Film):
         x, y = self.on_page(x, y)
         for robots, colour in self._groups(step, cells):
             self.paint_robots(frame, x[robots], y[robots], colour)
+        if not self.clock:
+            return frame
         arrived = np.count_nonzero(run.arrived & (run.ended <= step))
         known = float(np.mean((run.known_since >= 0) & (run.known_since <= step)))
-        text = f"step {step} of {run.steps}, arrived {arrived} of {run.robots.size}"
+        text = f"{step_words(run.scenario, step, run.steps, self.speed)}, arrived {arrived} of {run.robots.size}"
         text += f", known {100 * known:.0f} %" if run.sensor is not None else ""
         return write_words(frame, [self.clock_words(text)])
-
-    @cached_property
-    def _last_cells(self) -> NDArray[np.int64]:
-        """Where each robot was last, its destination if it arrived."""
-        layout = self.run.scenario.area.layout
-        site = layout.cell_to_site(self.run.robots)
-        for action in self.run.actions:
-            moves = np.flatnonzero(action < LATE)
-            site[moves] += layout.offset_of_direction[site[moves] & 1, action[moves]]
-        return layout.site_to_cell(site)

@@ -9,9 +9,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Area
+from trihex.areas import Area, Claim
 from trihex.pictures.scene import centres_of
-from trihex.plans import Plan
+from trihex.plans import Motion
 
 _NONE = -1  # no move leads so far
 
@@ -44,19 +44,21 @@ def places_between(
     return place[:, 0], place[:, 1]
 
 
-def robot_paths(plan: Plan) -> tuple[NDArray[np.float64], ...]:
+def robot_paths(motion: Motion, area: Area | None = None) -> tuple[NDArray[np.float64], ...]:
     """Return the way of each robot, shape (points, 2), through the lattice vertices that it passes.
 
-    Each is a little aside, so that paths in one cell do not hide, but not where a barrier stands at the vertex.
+    Each is a little aside, so that paths in one cell do not hide, but not where a barrier stands at the vertex; `area`
+    has the barriers that are shown. Default: those at the beginning.
     """
-    area = plan.scenario.area
-    cells, closed = np.stack(list(plan.cells_by_step())), plan.scenario.moves_closed_by("no-cut")
+    area = motion.scenario.area if area is None else area
+    cells = np.stack(list(motion.cells_by_step()))
+    closed = Claim(area, np.zeros(1, dtype=np.int64)).moves_closed_by("no-cut")  # wherever the destinations are
     paths = []
-    for robot, end in enumerate(plan.last_cell_of_robot.tolist()):
+    for robot, end in enumerate(motion.last_cell_of_robot.tolist()):
         own = np.append(cells[:, robot][cells[:, robot] >= 0], end)
         own = own[np.append(True, own[1:] != own[:-1])]
         turn = 2.399963 * robot  # the golden angle: no two robots of a few are aside alike
-        aside = 0.13 * np.array([np.cos(turn), np.sin(turn)]) * (plan.scenario.robot_count > 1)
+        aside = 0.13 * np.array([np.cos(turn), np.sin(turn)]) * (motion.robots.size > 1)
         paths.append(_path_of(area, own, aside, closed))
     return tuple(paths)
 

@@ -1,3 +1,6 @@
+from .earliest import (
+    make_earliest_arrivals as make_earliest_arrivals,
+)
 from .naming import (
     planner_from as planner_from,
 )
@@ -9,4 +12,7 @@ from .registry import (
     options_of as options_of,
     planner_named as planner_named,
     uses_of as uses_of,
+)
+from .straighten import (
+    straighten as straighten,
 )

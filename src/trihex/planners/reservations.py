@@ -144,12 +144,27 @@ class Reservations:
         return actions[actions.size - astar.write_way(self._nodes, self._state, actions) :].copy()
 
     def reserve(self, start: int, actions: NDArray[np.uint8]) -> None:
-        """Reserve the way that was found last."""
+        """Reserve a way; where moves last or nobody follows at once, the one that was found last."""
         from trihex.planners.kernels import astar, reservations
 
-        self.make_room(int(self._nodes.step[self._state[astar.GOAL]]) + 1)
+        steps = int(self._nodes.step[self._state[astar.GOAL]]) if self._reserved.per_tick else actions.size
+        self.make_room(steps + 1)
         reserve = reservations.reserve_ticks if self._reserved.per_tick else reservations.reserve
         reserve(start, actions, self._terrain, self._reserved)
+
+    def unreserve(self, start: int, actions: NDArray[np.uint8]) -> None:
+        """Free a way that was reserved."""
+        from trihex.planners.kernels import reservations
+
+        reservations.unreserve(start, actions, self._terrain, self._reserved)
+
+    def straighten_way(
+        self, start: int, most: int, turn: NDArray[np.int32], layers: Any, actions: NDArray[np.uint8]
+    ) -> int:
+        """Fill `actions` with the straightest of the cheapest ways of as many; see the kernel."""
+        from trihex.planners.kernels import straight
+
+        return int(straight.straighten_way(start, most, self._terrain, self._reserved, turn, layers, actions))
 
 
 def _grown(array: NDArray[Any], size: int) -> NDArray[Any]:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from trihex.areas import Scenario
 from trihex.errors import PlanError, check_type
-from trihex.plans.plan import Plan
+from trihex.plans.motion import Motion
 from trihex.record import Record, counted, read_only
 
 
@@ -29,7 +29,7 @@ class Arrivals(Record):
     Raises
     ------
     PlanError
-        If the arrays are not as many as robots.
+        If the arrays have not an entry for each robot, those that joined a run among them.
     """
 
     scenario: Scenario
@@ -41,13 +41,14 @@ class Arrivals(Record):
         check_type("scenario", self.scenario, Scenario)
         for name in ("arrival_step_of_robot", "time_of_robot"):
             values = np.ascontiguousarray(getattr(self, name), dtype=np.int64)
-            if values.shape != (self.scenario.robot_count,):
-                raise PlanError(f"{name} must have an entry for each of {self.scenario.robot_count} robots")
+            robots = max(self.scenario.robot_count, np.size(self.arrival_step_of_robot))
+            if values.shape != (robots,):
+                raise PlanError(f"{name} must have an entry for each of {robots} robots")
             self._set(name, read_only(values))
 
     def in_words(self) -> str:
         """Return the planner, the area, how many robots arrive, steps and total time."""
-        arrive = f"{np.count_nonzero(self.arrived)} of {counted(self.scenario.robot_count, 'robot')} arrive"
+        arrive = f"{np.count_nonzero(self.arrived)} of {counted(self.arrived.size, 'robot')} arrive"
         times = f"{counted(self.steps, self.scenario.step_word)}, total time {self.total_time}"
         return f"{self.planner!r}, {self.scenario.area.in_words()}, {arrive}, {times}"
 
@@ -67,9 +68,9 @@ class Arrivals(Record):
         return int(self.time_of_robot.sum())
 
 
-def make_arrivals(plan: Plan) -> Arrivals:
-    """Return the arrivals of a plan."""
-    check_type("plan", plan, Plan)
+def make_arrivals(plan: Motion) -> Arrivals:
+    """Return the arrivals of a plan or a run; robots that joined a run come last."""
+    check_type("plan", plan, Motion)
     return Arrivals(
         plan.scenario, plan.arrival_step_of_robot, np.where(plan.arrived, plan.time_of_robot, 0), plan.planner
     )

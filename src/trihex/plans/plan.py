@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import repeat
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -13,7 +14,8 @@ from numpy.typing import NDArray
 from trihex.areas import Scenario
 from trihex.errors import PlanError, check_type, is_whole
 from trihex.kernels.codes import JUMP, WAIT
-from trihex.record import Record, counted, in_one_line, read_only
+from trihex.plans.motion import Motion
+from trihex.record import counted, in_one_line, read_only
 
 if TYPE_CHECKING:
     from trihex.kernels.actions import Actions
@@ -23,7 +25,7 @@ _NO_JUMPS = np.empty((0, 2), dtype=np.int64)
 
 
 @dataclass(frozen=True, eq=False)
-class Plan(Record):
+class Plan(Motion):
     """The actions of all robots, one byte each, and the times that follow from them.
 
     Time runs in steps 1, 2, ...; in each step a robot that has not arrived makes one move or waits, and one that enters
@@ -147,6 +149,21 @@ class Plan(Record):
         """Number of the cell in which the actions of each robot end, shape (robots,)."""
         return self._replayed[0]
 
+    @property
+    def robots(self) -> NDArray[np.int64]:
+        """Start of each robot, a cell number; those of the scenario."""
+        return self.scenario.robots
+
+    @cached_property
+    def joined(self) -> NDArray[np.int64]:
+        """The step after which each robot is in the area: 0."""
+        return read_only(np.zeros(self.scenario.robot_count, dtype=np.int64))
+
+    @property
+    def ended(self) -> NDArray[np.int64]:
+        """The step after which each robot is not in the area any more: that of its arrival, -1 if there is none."""
+        return self.arrival_step_of_robot
+
     @cached_property
     def arrived(self) -> NDArray[np.bool_]:
         """Whether each robot ends on a destination, shape (robots,)."""
@@ -186,10 +203,17 @@ class Plan(Record):
         """Number of steps (ticks) until the last robot has arrived (the makespan)."""
         return int(self.last_step_of_robot.max(initial=0))
 
-    @property
-    def total_time(self) -> int:
-        """Sum of t_r over the robots that arrive: what the planners minimise."""
-        return int(self.time_of_robot[self.arrived].sum())
+    def actions_in(self, step: int) -> NDArray[np.uint8]:
+        """Return what each robot does in step 1, 2, ...: a direction, `WAIT` or `JUMP`; `WAIT` if it has no action."""
+        from trihex.plans.walk import Walk
+
+        walk = Walk(self)
+        walk.skip_to(step - 1)
+        return walk.action_of_robot
+
+    def worlds(self) -> Iterator[tuple[NDArray[np.bool_], NDArray[np.int64]]]:
+        """Yield barriers and destinations in step 1, 2, ..., `steps`: those of the scenario."""
+        yield from repeat((self.scenario.area.barriers, self.scenario.destinations), self.steps)
 
     def cells_by_step(self) -> Iterator[NDArray[np.int64]]:
         """Yield the cell of each robot after step 0, 1, ..., `steps`; -1 once it has left the area.

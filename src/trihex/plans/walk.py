@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from functools import cached_property
 from typing import Any
 
@@ -10,10 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.kernels.codes import JUMP, WAIT
+from trihex.plans.motion import Motion
 from trihex.plans.plan import Plan, RobotSets, actions_of
-
-# Actions that kernels look at in one call, some 10 ms: Ctrl-C works in between.
-_BUDGET = 10_000_000
+from trihex.plans.rows import BUDGET, blocks_of, rows_of_motion, steps_of_actions
 
 
 class Walk:
@@ -47,7 +45,7 @@ class Walk:
 
     def go_to(self, step: int) -> None:
         """Go on to a step that is not before this one."""
-        actions, some = actions_of(self.plan), max(1, _BUDGET // max(1, step - self.step))
+        actions, some = actions_of(self.plan), max(1, BUDGET // max(1, step - self.step))
         for first in range(0, self.site.size if step > self.step else 0, some):
             last = min(self.site.size, first + some)
             if self._cursor is None:
@@ -109,16 +107,26 @@ class Walk:
         return index, index < first[1:]
 
 
-def visits_of(plan: Plan) -> NDArray[np.int64]:
+def visits_of(plan: Motion) -> NDArray[np.int64]:
     """Return how many robots start in or enter each cell, shape (height, width)."""
     from trihex.plans.kernels import replay as kernels
 
+    if not isinstance(plan, Plan):
+        return _visits_of_rows(plan)
     layout = plan.scenario.area.layout
     visits = np.zeros(layout.size, dtype=np.int64)
     start, actions = layout.cell_to_site(plan.scenario.robots), actions_of(plan)
-    for robot, last in _blocks_of(plan):
+    for robot, last in blocks_of(plan):
         kernels.count_visits(start, actions, robot, last, visits)
     return layout.cells_of(visits)  # type: ignore[return-value]
+
+
+def _visits_of_rows(motion: Motion) -> NDArray[np.int64]:
+    first_row, _, cell = rows_of_motion(motion)
+    enters = np.append(True, cell[1:] != cell[:-1])[: cell.size]
+    enters[first_row[:-1]] = True
+    area = motion.scenario.area
+    return np.bincount(cell[enters], minlength=area.cell_count).reshape(area.height, area.width)
 
 
 def count_marked_moves(plan: Plan, marked: NDArray[np.uint16]) -> int:
@@ -126,51 +134,20 @@ def count_marked_moves(plan: Plan, marked: NDArray[np.uint16]) -> int:
     from trihex.plans.kernels import replay as kernels
 
     start, actions = plan.scenario.area.layout.cell_to_site(plan.scenario.robots), actions_of(plan)
-    return sum(int(kernels.count_marked(start, actions, robot, last, marked)) for robot, last in _blocks_of(plan))
+    return sum(int(kernels.count_marked(start, actions, robot, last, marked)) for robot, last in blocks_of(plan))
 
 
 def waits_by_step(plan: Plan) -> NDArray[np.int64]:
     """Return how many robots wait, by an action of their own, in each step (tick) from 0, with none, to `steps`."""
     waiting = np.zeros(plan.steps + 1, dtype=np.int64)
-    for robot, last in _blocks_of(plan):
+    for robot, last in blocks_of(plan):
         own = slice(*plan.first_action[[robot, last]].tolist())
         ends = steps_of_actions(plan, robot, last)[plan.actions[own] == WAIT]
         waiting += np.bincount(ends, minlength=waiting.size)
     return waiting
 
 
-def cells_of_rows(plan: Plan, first_row: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return the cell number of each robot at its start and after each action, robot by robot.
-
-    Robot r has the rows from ``first_row[r]`` on, at least one more than actions; in those beyond it stays.
-    """
-    from trihex.plans.kernels.rows import fill_rows
-
-    layout = plan.scenario.area.layout
-    start, site = layout.cell_to_site(plan.scenario.robots), np.empty(first_row[-1], dtype=np.int32)
-    for robot, last in _blocks_of(plan):
-        fill_rows(start, actions_of(plan), robot, last, first_row, site)
-    return layout.site_to_cell(site)
-
-
-def steps_of_actions(plan: Plan, robot: int = 0, last: int | None = None) -> NDArray[np.int64]:
-    """Return the step (tick) in which each action of a plan, or of some of its robots, ends, shape (actions,)."""
-    first = plan.first_action[robot : None if last is None else last + 1]
-    end = np.cumsum(plan.duration_of_action[plan.actions[first[0] : first[-1]]], dtype=np.int64)
-    return np.asarray(end - np.repeat(np.append(0, end)[first[:-1] - first[0]], np.diff(first)))
-
-
 def place_of_action(plan: Plan, index: int) -> tuple[int, int]:
     """Return which robot an action is of, and the step (tick) in which it ends."""
     robot = int(np.searchsorted(plan.first_action, index, side="right")) - 1
     return robot, int(plan.ticks_of_robot(robot)[index - plan.first_action[robot] + 1])
-
-
-def _blocks_of(plan: Plan) -> Iterator[tuple[int, int]]:
-    """Yield robots from, and up to, that have about so many actions together as one call of a kernel takes."""
-    first, robot, robots = plan.first_action, 0, plan.scenario.robot_count
-    while robot < robots:
-        last = max(robot + 1, int(np.searchsorted(first, first[robot] + _BUDGET)) - 1)
-        last = min(robots, last, robot + 1_000_000)
-        yield robot, last
-        robot = last

@@ -17,8 +17,9 @@ from numpy.typing import NDArray
 from trihex.areas import Area
 from trihex.errors import check_type
 from trihex.judging import Conflict, is_reachable
-from trihex.kernels.codes import LATE
+from trihex.kernels.codes import UNDERWAY
 from trihex.record import Record, counted
+from trihex.running.owning import judge_arrivals, judge_events, judge_owners, moves_of
 from trihex.running.run import ARRIVED, BROKEN, GOING, LEFT, Run
 
 Ints = NDArray[np.int64]
@@ -60,7 +61,8 @@ def audit_run(run: Run, limit: int = 100) -> RunAudit:
     """Judge a run: in each step the rules of the scenario in the world of that step, at the end who was left behind.
 
     Kinds of conflict are those of `trihex.judging.audit_plan`, and "late": a robot moved though an event made it late;
-    "event": an event put a barrier or a robot where one stood; "end": what is said of a robot is not so.
+    "event": an event put a barrier or a robot where one stood; "end": what is said of a robot is not so; "time":
+    a robot acts while it is under way, or is said to be under way when it is not.
 
     Examples
     --------
@@ -71,20 +73,26 @@ def audit_run(run: Run, limit: int = 100) -> RunAudit:
     True
     """
     check_type("run", run, Run)
-    found = [*_events(run), *(c for step in _steps(run) for judge in _JUDGES for c in judge(run, step)), *_ends(run)]
+    if run.scenario.is_stepwise:
+        found = [*_events(run), *(c for step in _steps(run) for judge in _JUDGES for c in judge(run, step))]
+    else:
+        moves, found = moves_of(run)
+        found += [conflict for step in _steps(run) for conflict in _judge_moves(run, step)]
+        found += [conflict for judge in (judge_owners, judge_arrivals, judge_events) for conflict in judge(run, moves)]
+    found += _ends(run)
     found.sort(key=lambda conflict: conflict.step)
     return RunAudit(run, tuple(found[:limit]), len(found))
 
 
 def _steps(run: Run) -> Iterator[_Step]:
-    """Follow the robots as the actions say."""
+    """Follow the robots as the actions say: in each step those that are at a centre."""
     area, tessellation = run.scenario.area, run.scenario.area.tessellation
-    layout = area.layout
-    cell = run.robots.copy()
+    layout, duration = area.layout, run.scenario.duration_of_direction
+    cell, due = run.robots.copy(), np.zeros(run.robots.size, dtype=np.int64)
     for number, (barriers, destinations) in enumerate(run.worlds(), 1):
-        robots = np.flatnonzero((run.joined < number) & ((run.ended >= number) | (run.ended < 0)))
+        robots = np.flatnonzero((run.joined < number) & ((run.ended >= number) | (run.ended < 0)) & (due < number))
         here, action = cell[robots], run.actions[number - 1, robots]
-        moves = np.flatnonzero(action < LATE)
+        moves = np.flatnonzero(action < UNDERWAY)
         x, y = area.cell_to_xy(here[moves])
         side, k = tessellation.orientation_of_cell(x, y), action[moves]
         step = tessellation.step_of_direction[side, k].astype(np.int64)
@@ -96,6 +104,7 @@ def _steps(run: Run) -> Iterator[_Step]:
         vertex[moves] = np.where(k >= tessellation.edge_count, passed, -1)
         yield _Step(number, robots, here, there, vertex, barriers, destinations)
         cell[robots] = np.where(there < 0, here, there)
+        due[robots[moves]] = number - 1 + duration[k] * (there[moves] >= 0)
 
 
 def _judge_moves(run: Run, step: _Step) -> Iterator[Conflict]:

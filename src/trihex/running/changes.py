@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from trihex.areas import Area, World
 from trihex.errors import AreaError, ExecutionError, MissingExtraError
 from trihex.running.events import OF_SHAPES, Event, Points
+from trihex.running.fleet import Fleet
 from trihex.running.obstacles import Obstacles
 
 
@@ -26,9 +26,7 @@ def cell_at(area: Area, place: tuple[int, int] | None, metres: Points | None = N
     return y * area.width + x
 
 
-def changes_of(
-    event: Event, world: World, cell_of_robot: NDArray[np.int64], obstacles: Obstacles
-) -> dict[str, tuple[int, ...]]:
+def changes_of(event: Event, world: World, fleet: Fleet, obstacles: Obstacles) -> dict[str, tuple[int, ...]]:
     """Return what an event that concerns cells changes, as an `Occurrence` has it.
 
     Parameters
@@ -37,8 +35,8 @@ def changes_of(
         A barrier that comes or goes, or a destination that opens, closes or moves. Of many cells those change that can.
     world : World
         As it is before the event.
-    cell_of_robot : int64 array
-        Number of the cell of each robot, -1 for those that are not in the area.
+    fleet : Fleet
+        The robots.
     obstacles : Obstacles
         What has come to stand in the world so far; brought up to date.
 
@@ -50,15 +48,15 @@ def changes_of(
     area = world.area
     if event.zone is not None:
         cells = _cells_of_zone(area, event.zone)
-        changes = _changes_of_many(event, cells, world, cell_of_robot)
+        changes = _changes_of_many(event, cells, world, fleet)
         obstacles.fill(changes.get("blocked", ()))
         obstacles.clear(changes.get("freed", ()))
         return changes
     if event.metres is not None and event.kind in OF_SHAPES:
-        return _changes_of_shape(event, world, cell_of_robot, obstacles)
+        return _changes_of_shape(event, world, fleet, obstacles)
     cell = cell_at(area, event.cell, event.metres)
     if event.kind == "barrier":
-        obstacles.fill([_check_clear(cell, world, cell_of_robot)])
+        obstacles.fill([_check_clear(cell, world, fleet)])
         return {"blocked": (cell,)}
     if event.kind == "clear":
         if not world.is_barrier(cell):
@@ -74,9 +72,7 @@ def changes_of(
     return {"closed": (cell,), "opened": (_check_new(cell_at(area, event.to, event.to_metres), world),)}
 
 
-def _changes_of_shape(
-    event: Event, world: World, cell_of_robot: NDArray[np.int64], obstacles: Obstacles
-) -> dict[str, tuple[int, ...]]:
+def _changes_of_shape(event: Event, world: World, fleet: Fleet, obstacles: Obstacles) -> dict[str, tuple[int, ...]]:
     """Return what changes where an obstacle comes, or goes: then cells are free in which nothing else stands."""
     area = world.area
     try:
@@ -85,8 +81,8 @@ def _changes_of_shape(
         raise ExecutionError(str(error)) from None
     if event.kind == "clear":
         cells = obstacles.take(cells) - set(np.flatnonzero(area.barriers).tolist())
-        return _changes_of_many(event, cells, world, cell_of_robot)
-    changes = _changes_of_many(event, cells, world, cell_of_robot)
+        return _changes_of_many(event, cells, world, fleet)
+    changes = _changes_of_many(event, cells, world, fleet)
     obstacles.put(cells)
     return changes
 
@@ -98,12 +94,10 @@ def _cells_of_zone(area: Area, name: str) -> set[int]:
         raise ExecutionError(str(error)) from None
 
 
-def _changes_of_many(
-    event: Event, cells: set[int], world: World, cell_of_robot: NDArray[np.int64]
-) -> dict[str, tuple[int, ...]]:
+def _changes_of_many(event: Event, cells: set[int], world: World, fleet: Fleet) -> dict[str, tuple[int, ...]]:
     """Return what changes of many cells; raises ExecutionError if none can."""
     barred = {cell for cell in cells if world.is_barrier(cell)}
-    taken = cells & set(cell_of_robot.tolist())
+    taken = cells & set(fleet.cells_owned.reshape(-1).tolist())
     goals = cells & world.destinations
     if event.kind == "barrier":  # whoever wanted to go there cannot
         changes = {"blocked": cells - barred - taken, "closed": goals - taken, "left_out": taken - barred}
@@ -124,15 +118,14 @@ def _changes_of_many(
     return {name: tuple(sorted(own)) for name, own in changes.items()}
 
 
-def _check_clear(cell: int, world: World, cell_of_robot: NDArray[np.int64]) -> int:
+def _check_clear(cell: int, world: World, fleet: Fleet) -> int:
     """Return a cell that can become a barrier."""
     if world.is_barrier(cell):
         raise ExecutionError(f"{world.area.name_of_cell(cell)} is a barrier already")
     if cell in world.destinations:
         raise ExecutionError(f"{world.area.name_of_cell(cell)} is a destination, close it first")
-    robots = np.flatnonzero(cell_of_robot == cell)
-    if robots.size:
-        raise ExecutionError(f"robot {robots[0]} stands at {world.area.name_of_cell(cell)}")
+    if owner := fleet.words_of_owner(cell):
+        raise ExecutionError(owner)
     return cell
 
 

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from trihex.areas import Area, Scenario, cells_from
 from trihex.errors import ExecutionError, check_choice, check_many, check_number, check_type, is_whole
 from trihex.fields import LivingField, NScheme, Repair, field_kernels, make_n_scheme
-from trihex.kernels.codes import LATE, NOT_REACHED, WAIT
+from trihex.kernels.codes import UNDERWAY
 from trihex.kernels.preparing import prepare
 from trihex.planners import PLANNERS
 from trihex.record import in_one_line, read_only
@@ -31,10 +31,11 @@ class Orders(NamedTuple):
     step : int
         The number of the step, from 1.
     action_of_robot : uint8 array
-        A direction of the tessellation, or `WAIT` (255).
+        A direction of the tessellation in the step in which a move begins, `UNDERWAY` (252) in those in which it goes
+        on, else `WAIT` (255).
     cell_of_robot : int64 array
-        Number of the cell after the step; -1 for robots that are not in the area any more, the destination for those
-        that arrive in this step.
+        Number of the cell in which each is after the step, or which it is entering; -1 for robots that are not in the
+        area any more, the destination for those that arrive in this step.
     """
 
     step: int
@@ -50,7 +51,8 @@ class Execution:
 
     It knows the world as it has been told; `observe` tells it of barriers and destinations, `step` returns one move for
     each robot and takes it as made. No orders, given together, break a rule of the scenario in the world as known.
-    All is a function of what was told, in the order told: the same calls give the same moves.
+    Where moves last several ticks (``clock="costs"``) a step is a tick, and robots are told what to do when they are at
+    the centre of a cell. All is a function of what was told, in the order told: the same calls give the same moves.
 
     Parameters
     ----------
@@ -112,14 +114,18 @@ class Execution:
         self.scenario, self.planner, self.aside = scenario, planner, aside
         self.field = LivingField(scenario, n_scheme.distance_of_site)
         self.fleet = Fleet(scenario)
-        self._stepper = Stepper(scenario, self.field, planner, aside)
-        #: Number of steps done.
-        self.steps_done = 0
+        self._stepper = Stepper(scenario, self.field, self.fleet, planner, aside)
         self._obstacles = Obstacles()
         self._arrive_on_the_spot()
         # Compiled code is loaded now, not in the first step, for which a robot may be waiting.
         self.field.change()
-        self._stepper.step(0, np.empty(0, dtype=np.int32), self.fleet)
+        nobody = np.empty(0, dtype=np.int32)
+        self._stepper.step(nobody, nobody, self.fleet)
+
+    @property
+    def steps_done(self) -> int:
+        """Number of steps done."""
+        return self.fleet.tick
 
     @property
     def state_of_robot(self) -> NDArray[np.uint8]:
@@ -128,8 +134,18 @@ class Execution:
 
     @property
     def cell_of_robot(self) -> NDArray[np.int64]:
-        """Number of the cell of each robot, -1 for those that are not in the area any more."""
+        """Number of the cell in which each robot is or which it enters, -1 for those not in the area any more."""
         return self.fleet.cell_of_robot
+
+    @property
+    def cells_owned(self) -> NDArray[np.int64]:
+        """Cells in which robots are or which they enter, and those that they still leave, shape (2, robots); or -1."""
+        return self.fleet.cells_owned
+
+    @property
+    def is_under_way(self) -> NDArray[np.bool_]:
+        """Whether each robot is between two centres; never where a move lasts a step."""
+        return self.fleet.is_under_way
 
     @property
     def site_of_robot(self) -> NDArray[np.int32]:
@@ -139,15 +155,15 @@ class Execution:
     @property
     def cut_off_robots(self) -> NDArray[np.int64]:
         """Robots that still go, but cannot arrive in the world as known; ascending."""
-        return np.flatnonzero(self.fleet.is_going & (self.field.distance_of_site[self.fleet.site] == NOT_REACHED))
+        return np.flatnonzero(self.fleet.is_going & ~self._can_go())
 
     @property
     def is_over(self) -> bool:
-        """Whether no robot can arrive any more unless the world changes."""
-        return not self._can_go().any()
+        """Whether no robot can arrive any more unless the world changes, and none is under way."""
+        return not (self._can_go() | self.fleet.is_under_way).any()
 
     def _can_go(self) -> NDArray[np.bool_]:
-        return np.asarray(self.fleet.is_going & (self.field.distance_of_site[self.fleet.site] != NOT_REACHED))
+        return self.fleet.is_able(self.field.distance_of_site)
 
     def observe(
         self,
@@ -161,7 +177,8 @@ class Execution:
     ) -> Repair:
         """Take note of a change of the world, and repair the field.
 
-        A robot that stands where a destination opens has arrived.
+        A robot that stands where a destination opens has arrived; one that is under way into the cell arrives at the
+        end of its move. So does one that has begun to enter a destination that closes.
 
         Parameters
         ----------
@@ -177,7 +194,7 @@ class Execution:
         Raises
         ------
         ExecutionError
-            If a robot stands in a cell of `blocked`; nothing has changed then.
+            If a robot stands in a cell of `blocked`, enters or leaves it; nothing has changed then.
         ScenarioError
             As `LivingField.change`.
         AreaError
@@ -188,7 +205,7 @@ class Execution:
             cells_from(area, cells, name, ExecutionError)
             for cells, name in ((blocked, "blocked"), (freed, "freed"), (closed, "closed"))
         )
-        self.fleet.check_empty(area.layout.cell_to_site(told))
+        self.fleet.check_empty(told)
         barred = told
         come, left = (_touched(area, shapes, name) for shapes, name in ((obstacles, "obstacles"), (gone, "gone")))
         for cells in left:
@@ -196,7 +213,7 @@ class Execution:
             free = np.setdiff1d(list(self._obstacles.take(cells.tolist())), walls).astype(np.int64)
             cleared = np.union1d(cleared, free[self.field.barriers.reshape(-1)[free]])
         if come:
-            cells = np.setdiff1d(np.concatenate(come), self.fleet.cell_of_robot)
+            cells = np.setdiff1d(np.concatenate(come), self.fleet.cells_owned)
             barred = np.union1d(barred, cells[~self.field.barriers.reshape(-1)[cells]])
             cleared = np.setdiff1d(cleared, np.concatenate(come))
             closing = np.union1d(closing, np.intersect1d(cells, self.field.world.destination_cells))
@@ -213,7 +230,7 @@ class Execution:
         """Robots on their way that stand where an obstacle does, in cells that are therefore no barriers; ascending."""
         going = self.fleet.going
         cells = np.array(sorted(self._obstacles.cells), dtype=np.int64)
-        return np.asarray(going[np.isin(self.fleet.cell_of_robot[going], cells)])
+        return np.asarray(going[np.isin(self.fleet.cells_owned[:, going], cells).any(axis=0)])
 
     def _change(self, **changes: ArrayLike) -> Repair:
         repair = self.field.change(**changes)
@@ -223,6 +240,7 @@ class Execution:
         return repair
 
     def _arrive_on_the_spot(self) -> None:
+        self.fleet.meet(self.field.distance_of_site)
         self.fleet.arrive(self.fleet.going, self.field.distance_of_site)
 
     def join(self, cell: tuple[int, int] | int) -> int:
@@ -231,7 +249,7 @@ class Execution:
         Raises
         ------
         ExecutionError
-            If the cell is a barrier or holds a robot.
+            If the cell is a barrier, or a robot is in it, enters or leaves it.
         """
         robot = self.fleet.join(cell, self.field.blocked)
         self._forget_plan()
@@ -239,21 +257,39 @@ class Execution:
         return robot
 
     def leave(self, robot: int) -> None:
-        """Take a robot out of the area; raises ExecutionError if it is not on its way."""
+        """Take a robot out of the area, wherever it is; raises ExecutionError if it is not on its way."""
         self.fleet.end(robot, LEFT)
         self._forget_plan()
 
     def break_down(self, robot: int) -> Repair:
-        """Let a robot stay for ever where it is, a barrier to all others; raises ExecutionError if it is not going."""
+        """Let a robot stay for ever where it is, a barrier to all others.
+
+        One that is under way blocks the cell that it enters, and with ``following="forbid"`` also that which it leaves.
+
+        Raises
+        ------
+        ExecutionError
+            If it is not going, or enters a destination.
+        """
+        cells = np.setdiff1d(self.fleet.cells_blocked_by(robot), self.field.world.destination_cells)
         self.fleet.end(robot, BROKEN)
-        return self.observe(blocked=self.fleet.cell_of_robot[robot : robot + 1])
+        repair = self._change(blocked=cells)
+        self._obstacles.fill(cells.tolist())
+        self._arrive_on_the_spot()
+        return repair
 
     def check_going(self, robot: int) -> None:
         """Raise ExecutionError unless there is such a robot and it is on its way."""
         self.fleet.check_going(robot)
 
     def place(self, cell_of_robot: dict[int, tuple[int, int] | int]) -> None:
-        """Correct where robots are that are not where they were sent; ExecutionError if a robot cannot be there."""
+        """Correct where robots are that are not where they were sent: at the centres of these cells.
+
+        Raises
+        ------
+        ExecutionError
+            If a robot cannot be there.
+        """
         check_type("cell_of_robot", cell_of_robot, Mapping)
         self.fleet.place(cell_of_robot, self.field.blocked)
         self._forget_plan()
@@ -265,7 +301,7 @@ class Execution:
         Parameters
         ----------
         late : numbers of robots, optional
-            Who cannot move in this step; the others keep clear of them.
+            Who cannot begin a move in this step; the others keep clear of them. Who is under way is not affected.
 
         Raises
         ------
@@ -275,14 +311,19 @@ class Execution:
         is_late, can_go = self._is_late(late), self._can_go()
         planned = None
         if self.replanner is not None and can_go.any():
-            planned = self.replanner.step(self.steps_done + 1, self._world, is_late)
-        self.steps_done += 1
+            planned = self.replanner.step(self.steps_done + 1, self._world, is_late, self.fleet.is_under_way)
         if planned is not None:
             return self._follow(*planned)
-        going = np.flatnonzero(can_go & ~is_late).astype(np.int32)
-        distance = self.field.distance_of_site
-        order = going[np.argsort(distance[self.fleet.site[going]], kind="stable")]
-        return self._done(order, self._stepper.step(self.steps_done, order, self.fleet))
+        distance, fleet = self.field.distance_of_site[self.fleet.site], self.fleet
+        going = np.flatnonzero(can_go & ~is_late & ~fleet.is_under_way).astype(np.int32)
+        order = going[np.argsort(distance[going], kind="stable")]
+        if not fleet.claims.is_timed:
+            return self._done(order, self._stepper.step(order, order, fleet))
+        lined = np.flatnonzero(can_go & ~fleet.enters)
+        # The nearest of all comes nearer or waits: nobody can take its place but by being nearer, and what bars its way
+        # is under way and will be over. So all arrive that can, whatever the others do.
+        captain = int(lined[np.argmin(distance[lined])]) if lined.size else -1
+        return self._done(fleet.going, self._stepper.step(order, lined, fleet, captain))
 
     def _is_late(self, late: Iterable[int]) -> NDArray[np.bool_]:
         check_many("late", late, int, "a list of the numbers of robots")
@@ -297,13 +338,19 @@ class Execution:
         return is_late
 
     def _follow(self, robots: NDArray[np.int64], actions: NDArray[np.uint8]) -> Orders:
-        action = np.full(self.fleet.size, WAIT, dtype=np.uint8)
-        action[robots] = actions
-        self.fleet.move(action)
-        return self._done(np.flatnonzero(action < LATE), action)
+        action = self.fleet.idle_actions()
+        is_begun = actions < UNDERWAY
+        action[robots[is_begun]] = actions[is_begun]
+        return self._moved(action)
+
+    def _moved(self, action: NDArray[np.uint8]) -> Orders:
+        self.fleet.move(action, self.field.distance_of_site)
+        movers = self.fleet.going if self.fleet.claims.is_timed else np.flatnonzero(action < UNDERWAY)
+        return self._done(movers, action)
 
     def _done(self, movers: NDArray[np.integer], action: NDArray[np.uint8]) -> Orders:
         """Return the orders of a step that has been made, and let those arrive whom it brought to a destination."""
+        self.fleet.tick += 1
         orders = Orders(self.steps_done, action, self.fleet.cell_of_robot)
         self.fleet.arrive(movers, self.field.distance_of_site)
         return orders
@@ -314,9 +361,7 @@ class Execution:
         For who records what robots did and wants to go on from there.
         """
         self._forget_plan()
-        self.fleet.move(action_of_robot)
-        self.fleet.arrive(np.flatnonzero(action_of_robot < LATE), self.field.distance_of_site)
-        self.steps_done += 1
+        self._moved(action_of_robot)
 
     def _forget_plan(self) -> None:
         if self.replanner is not None:
@@ -324,7 +369,8 @@ class Execution:
 
     def _world(self) -> tuple[NScheme, NDArray[np.int64]]:
         """Return the N-scheme of the world as known with the robots where they are, and their numbers."""
-        robots, field, area = self.fleet.going, self.field, self.scenario.area
+        field, area = self.field, self.scenario.area
+        robots = np.flatnonzero(self.fleet.is_going & ~self.fleet.enters)
         scenario = replace(
             self.scenario,
             area=replace(area, barriers=field.barriers),
@@ -340,7 +386,6 @@ class Execution:
             **self.fleet.as_arrays(),
             "barriers": self.field.barriers.copy(),
             "destinations": self.field.world.destination_cells,
-            "steps_done": np.array(self.steps_done),
             "obstacles": self._obstacles.as_array(),
         }
 
@@ -354,10 +399,9 @@ class Execution:
             opened=np.array(sorted(wanted - now), dtype=np.int64),
             closed=np.array(sorted(now - wanted), dtype=np.int64),
         )
-        self.fleet.restore(state)
+        self.fleet.restore(state, self.field.distance_of_site)
         self._obstacles.restore(state["obstacles"])
         self._stepper.forget_steps()
-        self.steps_done = int(state["steps_done"])
 
 
 def _touched(area: Area, shapes: Iterable[Any], name: str) -> list[NDArray[np.int64]]:

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
+from heapq import heappop, heappush
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from trihex.errors import PlanError, check_number, check_type, check_whole
-from trihex.kernels.codes import JUMP, LATE, WAIT
+from trihex.kernels.codes import JUMP, LATE, UNDERWAY, WAIT
 from trihex.plans import Plan
 from trihex.record import Record, read_only
 from trihex.running.run import ARRIVED, GOING, Run
@@ -32,6 +33,12 @@ class PassingOrder(Record):
     Everything that must come first is earlier in the plan, or in the same step of it. So whoever is first in the plan
     of those not done can always move: no delay makes robots collide, or wait for each other for ever.
 
+    Where moves last several ticks or nobody follows before a cell is left, a robot begins its next move when the move
+    that leaves the cell, that which passes the vertex and that which enters the same place of the destination before it
+    are over, or, where following is allowed, when they have begun and will leave the cell or place no later than it
+    comes. The middles of these moves come no later in the plan; so of all moves that have not begun that of the
+    earliest middle can begin, alone or, where several are equal, in a ring whose moves last alike.
+
     Parameters
     ----------
     plan : Plan
@@ -48,6 +55,11 @@ class PassingOrder(Record):
     leaves_before: Ints
     vertex_before: Ints
     entry_before: Ints
+
+    @property
+    def duration_of_move(self) -> NDArray[np.int32]:
+        """How many ticks each move lasts."""
+        return self.plan.scenario.duration_of_direction[self.action_of_move]
 
     @cached_property
     def robot_of_move(self) -> Ints:
@@ -96,7 +108,7 @@ class PassingOrder(Record):
             )
             is_going = follower.is_going
             row = follower.step(np.flatnonzero(late))
-            row[late & is_going] = LATE
+            row[late & is_going & (row == WAIT)] = LATE
             rows.append(row)
         actions = np.array(rows, dtype=np.uint8).reshape(len(rows), robots)
         return self._record(actions, follower, delay, seed)
@@ -131,6 +143,8 @@ class Follower:
 
     order: PassingOrder
     _at: Ints = field(init=False)
+    _due: Ints = field(init=False)
+    _tick: int = field(init=False, default=0)
     _stack: Ints = field(init=False)
     _precedence: Any = field(init=False)
 
@@ -140,7 +154,7 @@ class Follower:
 
         order = self.order
         self._at = order.first_move[:-1].copy()
-        self._stack = np.empty_like(self._at)
+        self._due, self._stack = np.zeros_like(self._at), np.empty_like(self._at)
         self._precedence = given(
             Precedence,
             end=order.first_move[1:],
@@ -149,12 +163,14 @@ class Follower:
             enters_after=order.enters_after,
             vertex_before=order.vertex_before,
             entry_before=order.entry_before,
+            lasts=order.duration_of_move,
+            follows=int(order.plan.scenario.following == "allow"),
         )
 
     @property
     def is_going(self) -> NDArray[np.bool_]:
-        """Whether each robot has moves left."""
-        return np.asarray(self._at < self.order.first_move[1:])
+        """Whether each robot has moves left, or is under way."""
+        return np.asarray((self._at < self.order.first_move[1:]) | (self._due > self._tick))
 
     @property
     def is_over(self) -> bool:
@@ -162,15 +178,19 @@ class Follower:
         return not self.is_going.any()
 
     def step(self, late: Iterable[int] = ()) -> NDArray[np.uint8]:
-        """Return the action of each robot in this step, and take it as done; `late` robots cannot move."""
-        from trihex.running.kernels.passing import choose
+        """Return the action of each robot in this step, and take it as done; `late` robots cannot begin a move."""
+        from trihex.kernels.signatures import given
+        from trihex.running.kernels.passing import Progress, choose
 
         is_late, moves = np.zeros(self._at.size, dtype=bool), np.zeros(self._at.size, dtype=bool)
         is_late[np.fromiter(late, dtype=np.int64)] = True
-        choose(self._precedence, self._at, is_late, self._stack, moves)
-        action = np.full(self._at.size, WAIT, dtype=np.uint8)
+        now = given(Progress, tick=self._tick, at=self._at, due=self._due, is_late=is_late)
+        choose(self._precedence, now, self._stack, moves)
+        action = np.where(self._due > self._tick, np.uint8(UNDERWAY), np.uint8(WAIT))
         action[moves] = self.order.action_of_move[self._at[moves]]
+        self._due[moves] = self._tick + self._precedence.lasts[self._at[moves]]
         self._at += moves
+        self._tick += 1
         return action
 
 
@@ -185,21 +205,25 @@ def make_passing_order(plan: Plan) -> PassingOrder:
     Raises
     ------
     PlanError
-        If two robots are in one cell, pass one vertex, or exchange cells in a step, or a robot jumps.
+        If two robots own one cell, pass one vertex, or exchange cells at a time, a robot jumps, or robots in a ring
+        would turn by moves that last differently: delayed, they would wait for each other for ever.
     """
     check_type("plan", plan, Plan)
     if (plan.actions == JUMP).any():
         raise PlanError("a plan in which robots jump has no order of passing")
     scenario, capacity = plan.scenario, plan.scenario.destination_capacity
-    first_move, step, there, passed = _moves_of(plan)
-    moves = step.size
+    first_move, begin, there, passed = _moves_of(plan)
+    lasts = scenario.duration_of_direction[plan.actions[plan.actions != WAIT]].astype(np.int64)
+    # Half ticks: from when to when a move passes its vertex, and its robot owns its target and then the cell it leaves.
+    follows = int(scenario.following == "allow")
+    middle, end = 2 * begin + follows * lasts, 2 * (begin + lasts)
     is_entry = np.isin(there, scenario.area.layout.cell_to_site(scenario.destinations))
-    vertex, entry = np.full(moves, -1, dtype=np.int64), np.full(moves, -1, dtype=np.int64)
-    _chain(np.flatnonzero(passed >= 0), passed, step, 1, vertex, "pass one lattice vertex")
+    vertex, entry = np.full(begin.size, -1, dtype=np.int64), np.full(begin.size, -1, dtype=np.int64)
+    _chain(np.flatnonzero(passed >= 0), passed, 2 * begin, end, vertex)
     if capacity is not None:
-        words = f"are more than {capacity} to enter a destination"
-        _chain(np.flatnonzero(is_entry), there, step, capacity, entry, words)
-    leaves = _leaves_before(plan, first_move, step, there, is_entry)
+        _share(np.flatnonzero(is_entry), there, (middle, end), capacity, entry)
+    leaves = _leaves_before(plan, first_move, (middle, end - follows * lasts), there, is_entry)
+    _check_rings(leaves, middle, lasts)
     return PassingOrder(
         plan,
         read_only(first_move),
@@ -211,9 +235,9 @@ def make_passing_order(plan: Plan) -> PassingOrder:
 
 
 def _moves_of(plan: Plan) -> tuple[Ints, Ints, NDArray[np.int32], NDArray[np.int32]]:
-    """Return the first move of each robot, and of each move its step, the site it leads to, and the vertex it passes.
+    """Return the first move of each robot, of each move its first tick, the site it leads to, the vertex passed.
 
-    The vertex is -1 where the move passes none that others may not pass in the same step.
+    The vertex is -1 where the move passes none that others may not pass at the same time.
     """
     from trihex.kernels.actions import Actions
     from trihex.kernels.signatures import given
@@ -233,39 +257,58 @@ def _moves_of(plan: Plan) -> tuple[Ints, Ints, NDArray[np.int32], NDArray[np.int
     moves = given(
         PlanMoves,
         first=first_move,
-        step=np.empty(count, dtype=np.int64),
+        begin=np.empty(count, dtype=np.int64),
         there=np.empty(count, dtype=np.int32),
         passed=np.empty(count, dtype=np.int32),
     )
     start = layout.cell_to_site(scenario.robots)
-    lay_out(start, actions, layout.vertex_of_direction, scenario.first_vertex_move, moves)
-    return first_move, moves.step, moves.there, moves.passed
+    ways = layout.vertex_of_direction, scenario.first_vertex_move, plan.duration_of_action
+    lay_out(start, actions, *ways, moves)
+    return first_move, moves.begin, moves.there, moves.passed
 
 
-def _chain(moves: Ints, place: NDArray[np.int32], step: Ints, apart: int, before: Ints, words: str) -> None:
-    """Let each of `moves` come after the one `apart` places earlier at the same place."""
-    moves = moves[np.lexsort((step[moves], place[moves]))]
-    early, later = moves[:-apart], moves[apart:]
+def _chain(moves: Ints, place: NDArray[np.int32], since: Ints, until: Ints, before: Ints) -> None:
+    """Let each of `moves` come after the one before it at its vertex; each is there from `since` on, before `until`."""
+    moves = moves[np.lexsort((since[moves], place[moves]))]
+    early, later = moves[:-1], moves[1:]
     is_same = place[early] == place[later]
     early, later = early[is_same], later[is_same]
-    if (step[early] == step[later]).any():
-        raise PlanError(
-            f"the order of a plan needs a safe one; in step {step[early][step[early] == step[later]][0]} robots {words}"
-        )
+    _refuse(since[later][until[early] > since[later]], "pass one lattice vertex")
     before[later] = early
 
 
+def _share(moves: Ints, place: NDArray[np.int32], times: tuple[Ints, Ints], capacity: int, before: Ints) -> None:
+    """Let each of `moves` come after the one that had the same of the `capacity` places of its destination before."""
+    since, until = times
+    places: dict[int, list[tuple[int, int, int]]] = {}
+    for number, move in enumerate(moves[np.argsort(since[moves], kind="stable")].tolist()):
+        taken = places.setdefault(int(place[move]), [])
+        if len(taken) == capacity:  # the one that is free first, of several the one that was taken first
+            end, _, before[move] = heappop(taken)
+            _refuse(since[[move]][[end > since[move]]], f"are more than {capacity} to enter a destination")
+        heappush(taken, (int(until[move]), number, move))
+
+
+def _refuse(half_ticks: Ints, words: str) -> None:
+    """Raise PlanError if there are half ticks at which robots do what they must not."""
+    if half_ticks.size:
+        raise PlanError(f"the order of a plan needs a safe one; in step {half_ticks[0] // 2 + 1} robots {words}")
+
+
 def _leaves_before(
-    plan: Plan, first_move: Ints, step: Ints, there: NDArray[np.int32], is_entry: NDArray[np.bool_]
+    plan: Plan, first_move: Ints, times: tuple[Ints, Ints], there: NDArray[np.int32], is_entry: NDArray[np.bool_]
 ) -> Ints:
-    """Return for each move the one that leaves the cell that it enters."""
-    robots, moves = plan.scenario.robot_count, step.size
+    """Return for each move the one that leaves the cell that it enters.
+
+    `times` tell from which half tick a robot owns what each move enters, and before which what it leaves.
+    """
+    (since_of, until_of), moves, stays = times, there.size, np.arange(plan.scenario.robot_count)
     # Visits: one at each start, one by each move but those into destinations; each ends with the next move, if any.
-    by, stays = np.flatnonzero(~is_entry), np.arange(robots)
+    by = np.flatnonzero(~is_entry)
     on_exit = np.isin(plan.scenario.robots, plan.scenario.destinations)
     stays = stays[~on_exit]
     site = np.concatenate([plan.scenario.area.layout.cell_to_site(plan.scenario.robots)[stays], there[by]])
-    since = np.concatenate([np.zeros(stays.size, dtype=np.int64), step[by]])
+    since = np.concatenate([np.full(stays.size, -1, dtype=np.int64), since_of[by]])
     enters = np.concatenate([np.full(stays.size, -1, dtype=np.int64), by])
     robot = np.searchsorted(first_move, by, side="right") - 1
     leaves = np.concatenate([first_move[stays], by + 1])
@@ -274,15 +317,23 @@ def _leaves_before(
     early, later = order[:-1], order[1:]
     is_same = site[early] == site[later]
     early, later = early[is_same], later[is_same]
-    until = np.where(leaves[early] >= 0, step[leaves[early]] if moves else 0, np.iinfo(np.int64).max)
-    if (until > since[later]).any():
-        raise PlanError(
-            f"the order of a plan needs a safe one; in step {since[later][until > since[later]][0]} robots share a cell"
-        )
+    until = np.where(leaves[early] >= 0, until_of[leaves[early]] if moves else 0, np.iinfo(np.int64).max)
+    _refuse(since[later][until > since[later]], "share a cell")
     before = np.full(moves, -1, dtype=np.int64)
     before[enters[later]] = leaves[early]
     has = np.flatnonzero(before >= 0)
-    exchange = has[before[before[has]] == has]
-    if exchange.size:
-        raise PlanError(f"the order of a plan needs a safe one; in step {step[exchange[0]]} robots exchange cells")
+    _refuse(since_of[has[before[before[has]] == has]], "exchange cells")
     return before
+
+
+def _check_rings(leaves: Ints, middle: Ints, lasts: Ints) -> None:
+    """Raise PlanError if robots in a ring turn by moves of one middle that last differently."""
+    has = np.flatnonzero(leaves >= 0)
+    is_tie = has[(middle[leaves[has]] == middle[has])]
+    next_of = dict(zip(is_tie.tolist(), leaves[is_tie].tolist(), strict=True))
+    for move in is_tie[lasts[leaves[is_tie]] != lasts[is_tie]].tolist():
+        at: int | None = next_of.get(move)
+        while at is not None and at != move:
+            at = next_of.pop(at, None)
+        if at == move:
+            raise PlanError("a plan has no order of passing in which robots in a ring make moves that last differently")

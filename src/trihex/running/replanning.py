@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from trihex.errors import TooLargeError
 from trihex.fields import NScheme
+from trihex.kernels.codes import WAIT
 from trihex.planners import make_plan
 from trihex.running.passing import Follower, make_passing_order
 
@@ -76,6 +77,7 @@ class Replanner:
     _follower: Follower | None = None
     _attempt: _Attempt | None = None
     _robots: NDArray[np.int64] = field(default_factory=lambda: np.empty(0, dtype=np.int64))
+    _has_begun: bool = False
     _late_share: float = 0.0
     _pause: int = 1
     _next_try: int = 0
@@ -85,7 +87,11 @@ class Replanner:
         self._follower = None
 
     def step(
-        self, number: int, world: Callable[[], tuple[NScheme, NDArray[np.int64]]], is_late: NDArray[np.bool_]
+        self,
+        number: int,
+        world: Callable[[], tuple[NScheme, NDArray[np.int64]]],
+        is_late: NDArray[np.bool_],
+        is_under_way: NDArray[np.bool_],
     ) -> tuple[NDArray[np.int64], NDArray[np.uint8]] | None:
         """Return robots and their actions, or None if there is no plan in time; then another must decide.
 
@@ -95,8 +101,9 @@ class Replanner:
             Of the step.
         world : callable
             Returns the N-scheme of the world as it is, and which robot each of its scenario is.
-        is_late : bool array
-            For each robot.
+        is_late, is_under_way : bool arrays
+            For each robot. A plan begins at the centres of cells: if robots are under way when it is made, the others
+            wait until all have come to one.
         """
         self._late_share += (float(is_late.mean()) - self._late_share) / 10
         if self._late_share > MOST_LATE:
@@ -108,7 +115,10 @@ class Replanner:
                 if number >= self._next_try:  # not again at once: each try keeps all robots waiting
                     self._next_try, self._pause = number + self._pause, min(2 * self._pause, _MOST_PAUSE)
                 return None
-            self._pause = 1
+            self._pause, self._has_begun = 1, False
+        if not self._has_begun and is_under_way.any():
+            return self._robots, np.full(self._robots.size, WAIT, dtype=np.uint8)
+        self._has_begun = True
         return self._robots, self._follower.step(np.flatnonzero(is_late[self._robots]))
 
     def _planned(self, world: Callable[[], tuple[NScheme, NDArray[np.int64]]]) -> Follower | None:

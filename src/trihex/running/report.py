@@ -8,11 +8,12 @@ from typing import Any
 
 import numpy as np
 
+from trihex.areas import seconds_per_step
 from trihex.bounds import LowerBound, make_lower_bound
 from trihex.errors import check_type
 from trihex.fields import make_n_scheme
 from trihex.planners import make_plan
-from trihex.plans import Plan
+from trihex.plans import Plan, seconds_of_arrivals
 from trihex.record import Record, counted, html_table
 from trihex.running.audit import RunAudit, audit_run
 from trihex.running.run import BROKEN, GOING, LEFT, Run
@@ -31,7 +32,9 @@ class RunReport(Record):
     bound : LowerBound
         What no such plan can beat.
     seconds : tuple of float
-        How long each step took; empty if not known.
+        How long the work of each step took; empty if not known.
+    step_seconds : float, optional
+        How long a step lasts, in an area in metres.
     """
 
     run: Run
@@ -39,6 +42,7 @@ class RunReport(Record):
     reference: Plan
     bound: LowerBound
     seconds: tuple[float, ...] = ()
+    step_seconds: float | None = None
 
     def in_words(self) -> str:
         """Return the words of the run, the price of what it did not know, and the conflicts."""
@@ -98,6 +102,7 @@ class RunReport(Record):
             "lower_bound": self.bound.value,
             "lower_bound_name": self.bound.name,
             "conflicts": self.audit.conflict_count,
+            **seconds_of_arrivals(run, self.step_seconds),
             "known": float(np.mean(run.known_since >= 0)),
             "repairs": int(run.touched[:, 0].sum()),
             "cells_touched": int(run.touched[:, 1].sum()),
@@ -105,7 +110,14 @@ class RunReport(Record):
         }
 
 
-def make_run_report(run: Run, *, reference: Plan | str = "fcost", seconds: Sequence[float] = ()) -> RunReport:
+def make_run_report(
+    run: Run,
+    *,
+    reference: Plan | str = "fcost",
+    seconds: Sequence[float] = (),
+    speed: float = 1.0,
+    turn_time: float = 0.0,
+) -> RunReport:
     """Judge a run, plan the same with full knowledge, and put the numbers together.
 
     Parameters
@@ -114,7 +126,9 @@ def make_run_report(run: Run, *, reference: Plan | str = "fcost", seconds: Seque
     reference : Plan or str
         What to compare with: a plan, or the planner that makes it.
     seconds : sequence of float
-        How long each step took, as `Trial.seconds` has it.
+        How long the work of each step took, as `Trial.seconds` has it.
+    speed, turn_time : float
+        Of robots in an area in metres, as for `write_waypoints`; then the report tells seconds.
 
     Examples
     --------
@@ -130,4 +144,6 @@ def make_run_report(run: Run, *, reference: Plan | str = "fcost", seconds: Seque
     n_scheme = make_n_scheme(run.scenario)
     if isinstance(reference, str):
         reference = make_plan(run.scenario, reference, n_scheme=n_scheme)
-    return RunReport(run, audit_run(run), reference, make_lower_bound(n_scheme), tuple(seconds))
+    area = run.scenario.area
+    lasts = seconds_per_step(area, speed, turn_time) if area.frame is not None else None
+    return RunReport(run, audit_run(run), reference, make_lower_bound(n_scheme), tuple(seconds), lasts)

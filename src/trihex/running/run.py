@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.areas import Scenario, World, count_by_zone
-from trihex.kernels.codes import LATE, WAIT
-from trihex.record import Record, counted, read_only
+from trihex.kernels.codes import LATE, UNDERWAY, WAIT
+from trihex.plans import Motion
+from trihex.record import counted, read_only
 from trihex.running.events import Occurrence
 from trihex.running.sensing import Sensor
 
@@ -21,7 +22,7 @@ GOING, ARRIVED, LEFT, BROKEN = range(4)
 
 
 @dataclass(frozen=True, eq=False)
-class Run(Record):
+class Run(Motion):
     """What happened, from which all else follows.
 
     Parameters
@@ -44,7 +45,8 @@ class Run(Record):
     state_of_robot : uint8 array
         `GOING`, `ARRIVED`, `LEFT` or `BROKEN`.
     actions : uint8 array, shape (steps, robots)
-        A direction, `WAIT` or `LATE`; `WAIT` for robots that are not there.
+        A direction in the step in which a move begins, `UNDERWAY` in those in which it goes on, `WAIT` or `LATE`;
+        `WAIT` for robots that are not there.
     known_since : int32 array, shape (height, width)
         The step in which a robot first saw each cell, 0 before the first step, or when it was last told of a change;
         -1 where none did.
@@ -118,32 +120,44 @@ class Run(Record):
         """F_t, the list of t_r = d_r + w_r."""
         return self.distance_of_robot + self.waiting_of_robot
 
-    @property
-    def total_time(self) -> int:
-        """Sum of t_r over the robots that arrived."""
-        return int(self.time_of_robot[self.arrived].sum())
+    @cached_property
+    def last_cell_of_robot(self) -> NDArray[np.int64]:
+        """Number of the cell in which each robot was last: its destination, if it arrived."""
+        *_, site = self._sites_by_step()
+        return read_only(self.scenario.area.layout.site_to_cell(site))
+
+    def actions_in(self, step: int) -> NDArray[np.uint8]:
+        """Return what each robot did in step 1, 2, ...: a direction, `WAIT` or `LATE`."""
+        return np.asarray(self.actions[step - 1])
 
     @property
     def arrivals_of_exit(self) -> dict[str, int]:
         """How many robots arrived in each zone of the area, by its name."""
         layout = self.scenario.area.layout
-        site = layout.cell_to_site(self.robots)
-        for action in self.actions:
-            moves = np.flatnonzero(action < LATE)
-            site[moves] += layout.offset_of_direction[site[moves] & 1, action[moves]]
+        *_, site = self._sites_by_step()
         return count_by_zone(self.scenario.area.zones, layout.site_to_cell(site[self.arrived]))
 
     def cells_by_step(self) -> Iterator[NDArray[np.int64]]:
-        """Yield the cell of each robot after step 0, 1, ..., `steps`; -1 where it is not in the area."""
-        layout = self.scenario.area.layout
-        site = layout.cell_to_site(self.robots)
-        for step in range(self.steps + 1):
-            if step:
-                action = self.actions[step - 1]
-                moves = np.flatnonzero(action < LATE)
-                site[moves] += layout.offset_of_direction[site[moves] & 1, action[moves]]
+        """Yield the cell of each robot after step 0, 1, ..., `steps`; -1 where it is not in the area.
+
+        A robot that is under way, where moves last longer than a step, is in the cell whose centre it left.
+        """
+        for step, site in enumerate(self._sites_by_step()):
             is_there = (step >= self.joined) & ((step < self.ended) | (self.ended < 0))
-            yield np.where(is_there, layout.site_to_cell(site), -1)
+            yield np.where(is_there, self.scenario.area.layout.site_to_cell(site), -1)
+
+    def _sites_by_step(self) -> Iterator[NDArray[np.int32]]:
+        """Yield the site whose centre each robot was at last, be it there or not; one array, changed in place."""
+        layout, duration = self.scenario.area.layout, self.scenario.duration_of_direction
+        site = layout.cell_to_site(self.robots)
+        target, due = site.copy(), np.zeros(site.size, dtype=np.int64)
+        yield site
+        for step, action in enumerate(self.actions, 1):
+            moves = np.flatnonzero(action < UNDERWAY)
+            target[moves] += layout.offset_of_direction[target[moves] & 1, action[moves]]
+            due[moves] = step - 1 + duration[action[moves]]
+            np.copyto(site, target, where=due == step)
+            yield site
 
     def worlds(self) -> Iterator[tuple[NDArray[np.bool_], NDArray[np.int64]]]:
         """Yield barriers (height, width) and destinations in step 1, 2, ..., `steps`; do not write to them."""

@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from trihex.areas import Scenario
 from trihex.fields import LivingField
-from trihex.kernels.codes import WAIT
 from trihex.running.fleet import Fleet
 
 STEPPERS = ("greedy", "fcost")
@@ -25,25 +24,33 @@ class Stepper:
         For its rules.
     field : LivingField
         Of the world as known.
+    fleet : Fleet
+        Whose claims it keeps to.
     planner : str
         "greedy", or any other for the least Fcost.
     aside : str
         One of `ASIDE`.
     """
 
-    def __init__(self, scenario: Scenario, field: LivingField, planner: str, aside: str) -> None:
+    def __init__(self, scenario: Scenario, field: LivingField, fleet: Fleet, planner: str, aside: str) -> None:
         from trihex.kernels.signatures import given
         from trihex.running.kernels.lines import Forest, LivingWays, WaitingLines
-        from trihex.running.kernels.stepping import FCOST, GREEDY, StepTraffic
+        from trihex.running.kernels.stepping import FCOST, GREEDY
 
         layout, tessellation = scenario.area.layout, scenario.area.tessellation
         self._looks_at_lines = planner != "greedy"
+        claims, shortest = fleet.claims, int(scenario.duration_of_direction.min())
+        self._headway = scenario.headway // shortest
         self._rules = {
             "mode": FCOST if self._looks_at_lines else GREEDY,
             "aside": ASIDE.index(aside),
-            "waiting_cost": int(scenario.waiting_cost),
+            "patience": int(scenario.waiting_cost) * scenario.headway,
+            "price": int(scenario.waiting_cost) * shortest,
+            "headway": self._headway,
             "first_vertex_move": scenario.first_vertex_move,
-            "entry_limit": scenario.entry_limit,
+            "entry_limit": claims.limit,
+            "is_timed": int(claims.is_timed),
+            "follows": int(claims.follows),
         }
         self._ways = given(
             LivingWays,
@@ -53,8 +60,8 @@ class Stepper:
             vertex=layout.vertex_of_direction,
             cost=tessellation.cost_of_direction,
         )
-        stamps = [np.zeros(layout.size, dtype=np.int32) for _ in range(6)]
-        self._forest, self._traffic = Forest(1, *stamps[:3]), StepTraffic(*stamps[3:])
+        stamps = [np.zeros(layout.size, dtype=np.int32) for _ in range(4)]
+        self._forest, self._led = Forest(1, *stamps[:3]), stamps[3]
         nothing = np.empty(0, dtype=np.int64)
         self._no_lines = WaitingLines(nothing, nothing, 0)
 
@@ -63,18 +70,24 @@ class Stepper:
         self._forest = self._forest._replace(version=self._forest.version + 1)
 
     def forget_steps(self) -> None:
-        """Forget what has happened in which step: the number of the next one may be any."""
-        self._traffic.passed[:] = 0
-        self._traffic.entered_step[:] = 0
+        """Forget who has led in which step: the number of the next one may be any."""
+        self._led[:] = 0
 
-    def step(self, number: int, order: NDArray[np.int32], fleet: Fleet) -> NDArray[np.uint8]:
-        """Move the robots of `order`, who are asked in this order, and return the action of each of the fleet."""
-        from trihex.running.kernels.stepping import StepRules, Walkers, act
+    def step(
+        self, order: NDArray[np.int32], lined: NDArray[np.integer], fleet: Fleet, captain: int = -1
+    ) -> NDArray[np.uint8]:
+        """Move the robots of `order`, who are asked in this order, and return the action of each of the fleet.
 
-        action = np.full(fleet.size, WAIT, dtype=np.uint8)
-        lines = self._lines_at(fleet.site[order]) if self._looks_at_lines else self._no_lines
-        walkers = Walkers(fleet.site, fleet.came_from, action, fleet.occupied)
-        act(order, StepRules(step=number, **self._rules), self._ways, self._forest, lines, walkers, self._traffic)
+        `lined` are the robots that make up the lines; the `captain` waits where it cannot come nearer.
+        """
+        from trihex.running.kernels.stepping import Held, StepRules, Walkers, act
+
+        action, claims = fleet.idle_actions(), fleet.claims
+        lines = self._lines_at(fleet.site[lined]) if self._looks_at_lines else self._no_lines
+        rules = StepRules(tick=fleet.tick, captain=captain, **self._rules)
+        walkers = Walkers(fleet.site, fleet.came_from, action, fleet.occupied, fleet.due, fleet.heading, fleet.enters)
+        held = Held(claims.duration, claims.left_until, claims.passed_until, claims.entered_until, self._led)
+        act(order, rules, self._ways, self._forest, lines, walkers, held)
         return action
 
     def _lines_at(self, sites: NDArray[np.int32]) -> Any:
@@ -84,4 +97,4 @@ class Stepper:
         slots, slot_of_line, line = np.empty((3, sites.size), dtype=np.int64)
         find_slots(sites, self._ways, self._forest, slots)
         slots.sort()
-        return WaitingLines(slot_of_line, line, line_up(slots, slot_of_line, line))
+        return WaitingLines(slot_of_line, line, line_up(slots, self._headway, slot_of_line, line))

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from trihex.areas import Area, Scenario, World
 from trihex.errors import ExecutionError, ScenarioError, check_many, check_number, check_type, check_whole
 from trihex.fields import Repair
-from trihex.kernels.codes import LATE, WAIT
+from trihex.kernels.codes import LATE, UNDERWAY, WAIT
 from trihex.running.changes import cell_at, changes_of
 from trihex.running.events import Event, Occurrence
 from trihex.running.execution import Execution
@@ -30,7 +30,8 @@ _NONE = np.empty(0, dtype=np.int32)
 class Trial:
     """A simulation: it knows the world as it is, and tells an `Execution` what robots notice of it.
 
-    In each step, in this order: events happen; robots look around; late robots are known; the others move.
+    In each step, in this order: events happen; robots look around; late robots are known; the others move. Where moves
+    last several ticks a step is a tick; robots look around when they come to the centre of a cell.
 
     What robots know is never darker than the world: cells that no robot has seen count as free, and what opens (a
     barrier goes, a destination opens) is announced to all. A barrier that appears is noticed when a robot sees it. So a
@@ -178,8 +179,8 @@ class Trial:
         else:
             action = actions[: is_going.size].copy()
             self.execution.take(action)
-        self._moved = action < LATE
-        action[late[is_going[late]]] = LATE
+        self._moved = (action <= UNDERWAY) & ~self.execution.is_under_way
+        action[late[is_going[late] & (action[late] == WAIT)]] = LATE
         self._actions.append(action)
         self._touched.append((self._repairs[0], self._repairs[1]))
         self._repairs = [0, 0]
@@ -199,7 +200,7 @@ class Trial:
 
     def _look(self, step: int) -> None:
         """Let robots see what is around them."""
-        looking = (self.execution.state_of_robot == GOING) & self._moved
+        looking = (self.execution.state_of_robot == GOING) & self._moved & ~self.execution.is_under_way
         seen = self._knowledge.look(self.execution.site_of_robot[looking], step - 1)
         self._observe(blocked=seen[self._world.blocked[seen] & ~self.execution.field.blocked[seen]])
 
@@ -238,14 +239,16 @@ class Trial:
         elif event.kind == "leave":
             self.execution.leave(robot)
         elif event.kind == "break":
+            was_barrier = self.execution.field.barriers.copy()
             self._note_repair(self.execution.break_down(robot))
-            self._obstacles.fill(own := [int(self.execution.cell_of_robot[robot])])
+            own = np.flatnonzero(self.execution.field.barriers & ~was_barrier).tolist()
+            self._obstacles.fill(own)
             return {"blocked": tuple(own)}
         elif event.kind == "late":
             self.execution.check_going(robot)
             self._log.delay(robot, event.step + (event.steps or 1) - 1)
         else:
-            return changes_of(event, self._world, self.execution.cell_of_robot, self._obstacles)
+            return changes_of(event, self._world, self.execution.fleet, self._obstacles)
         return {}
 
     def _join(self, cell: int, step: int) -> None:

@@ -35,9 +35,6 @@ from trihex.studies.run_plan import make_run_plan
 
 Made = TypeVar("Made")
 
-# Area of a cell whose edge step is 1.
-_AREA_OF_CELL = {"triangular": 0.75 * sqrt(3), "hexagonal": 0.5 * sqrt(3), "square": 1.0}
-
 
 def run_case(case: Case, tell: Callable[[Row], None] | None = None) -> Row:
     """Return the row of a case; if it fails, one that says why in `error`.
@@ -123,7 +120,7 @@ def read_area_of(entry: Mapping[str, Any], cells: Mapping[str, Any], seed: int, 
         area = GENERATORS[entry["generator"]](tessellation, height, width, **{"seed": seed, **options})
         return Draft(replace(area, name=entry.get("name", area.name)))
     if (cell_area := options.pop("cell_area", None)) is not None:
-        options["cell_size"] = sqrt(cell_area / _AREA_OF_CELL[tessellation.name])
+        options["cell_size"] = sqrt(cell_area / tessellation.area_of_cell)
     draft = read_draft(folder / entry["path"], tessellation, **options)
     return replace(draft, area=replace(draft.area, name=entry.get("name", draft.area.name)))
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from trihex.errors import StudyError
 from trihex.fields import NScheme
-from trihex.kernels.codes import LATE, WAIT
+from trihex.kernels.codes import LATE, UNDERWAY, WAIT
 from trihex.planners import make_plan
 from trihex.plans import Plan
 from trihex.running import Run, Sensor, Trial, make_passing_order
@@ -50,6 +50,6 @@ def make_run_plan(n_scheme: NScheme, planner: Mapping[str, Any]) -> Plan:
 def _plan_of(run: Run) -> Plan:
     """Return what robots did, to be late being to wait."""
     lengths = np.where(run.ended < 0, run.steps, run.ended)
-    step = np.arange(run.steps)[None, :]
     actions = np.where(run.actions == LATE, WAIT, run.actions).astype(np.uint8).T
-    return Plan(run.scenario, actions[step < lengths[:, None]], np.append(0, np.cumsum(lengths)), run.planner)
+    begins = (np.arange(run.steps)[None, :] < lengths[:, None]) & (actions != UNDERWAY)
+    return Plan(run.scenario, actions[begins], np.append(0, np.cumsum(begins.sum(axis=1))), run.planner)

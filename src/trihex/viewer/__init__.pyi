@@ -4,6 +4,7 @@ from .launch import (
 from .page import (
     PAGE_SUFFIXES as PAGE_SUFFIXES,
     write_page as write_page,
+    write_report_page as write_report_page,
 )
 from .site import (
     write_site as write_site,

@@ -26,7 +26,7 @@ from trihex.formats import FORMATS, Draft, draft_of, format_of, read_draft, read
 from trihex.judging import Report, audit_plan, make_report
 from trihex.planners import PLANNERS, make_plan
 from trihex.plans import Plan
-from trihex.running import Run
+from trihex.running import Run, make_run_report
 from trihex.viewer import requests as ask
 from trihex.viewer.bundle import Bundle, decode, encode
 from trihex.viewer.call import TICK, Call, CancelledError, Send
@@ -37,6 +37,7 @@ from trihex.viewer.folder import Folder, holds_run, references_of
 from trihex.viewer.live import Live, replay_of, trial_of
 from trihex.viewer.shelf import Shelf
 from trihex.viewer.show import show_plan
+from trihex.viewer.show_run import show_run
 
 # The automaton looks at all neighbours of all cells in every generation.
 MAX_AUTOMATON_CELLS = 2**20
@@ -77,9 +78,11 @@ class Desk:
             log.exception("a request of the page failed")
             send(encode({"kind": "error", "message": f"this is a fault of trihex: {error!r:.200}"}))
 
-    def show(self, record: Area | Scenario | Draft | Plan) -> Bundle:
+    def show(self, record: Area | Scenario | Draft | Plan | Run) -> Bundle:
         """Return what a page shows of a record, as the result of "open" does."""
-        check_type("record", record, Area, Scenario, Plan, Draft)
+        check_type("record", record, Area, Scenario, Plan, Run, Draft)
+        if isinstance(record, Run):
+            return show_run(make_run_report(record))
         if isinstance(record, Plan):
             return self._shown(record, {}, Call({}, lambda _: None, lambda: False))
         if isinstance(record, Scenario):

@@ -34,7 +34,7 @@ from trihex.pictures import (
     write_run_animation,
 )
 from trihex.running import Run
-from trihex.viewer.page import PAGE_SUFFIXES, write_report_page
+from trihex.viewer.page import PAGE_SUFFIXES, write_page, write_report_page
 
 # What, its suffixes, and what it is made of: a "draft", a "plan" or a live "run".
 EXPORTS: dict[str, tuple[tuple[str, ...], str]] = {
@@ -49,6 +49,8 @@ EXPORTS: dict[str, tuple[tuple[str, ...], str]] = {
     "waypoints": (WAYPOINT_SUFFIXES, "plan"),
     "summary": ((".json",), "plan"),
     "run": ((".npz",), "run"),
+    "run_page": (PAGE_SUFFIXES, "run"),
+    "run_waypoints": (WAYPOINT_SUFFIXES, "run"),
     "run_movie": (MOVIE_SUFFIXES, "run"),
     "run_picture": (PICTURE_SUFFIXES, "run"),
 }
@@ -100,6 +102,10 @@ def export(
 def _export_run(run: Run, what: str, path: Path, progress: Callable[[int, int], None]) -> None:
     if what == "run":
         write_run(run, path, progress=progress)
+    elif what == "run_page":
+        write_page(run, path)
+    elif what == "run_waypoints":
+        write_waypoints(run, path)
     elif what == "run_movie":
         write_run_animation(run, path, progress=progress)
     else:

@@ -10,13 +10,14 @@ from trihex.areas import Area, Scenario
 from trihex.errors import ArgumentError, check_whole
 from trihex.formats import Draft
 from trihex.plans import Plan
+from trihex.running import Run
 from trihex.viewer.desk import Desk
 from trihex.viewer.folder import Folder
 from trihex.viewer.server import make_viewing
 
 
 def open_viewer(
-    record: Area | Scenario | Plan | Draft | None = None,
+    record: Area | Scenario | Plan | Run | Draft | None = None,
     *,
     folder: str | os.PathLike[str] = ".",
     port: int = 0,
@@ -27,7 +28,7 @@ def open_viewer(
 
     Parameters
     ----------
-    record : Area, Scenario or Plan, optional
+    record : Area, Scenario, Plan or Run, optional
         What is shown at first. Default: an area of rooms to play with.
     folder : path
         Files are opened and saved below this folder only.

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from trihex.areas import Scenario
 from trihex.errors import ExecutionError, TooLargeError
-from trihex.kernels.codes import LATE, WAIT
+from trihex.kernels.codes import LATE, UNDERWAY, WAIT
 from trihex.running import ARRIVED, BROKEN, GOING, LEFT, Event, Run, RunReport, Sensor, Trial, make_run_report
 from trihex.viewer import requests as ask
 from trihex.viewer.bundle import Bundle
@@ -62,6 +62,7 @@ class Live:
         self._lock = Lock()
         cost = np.full(256, scenario.waiting_cost, dtype=np.int64)
         cost[: tessellation.direction_count] = tessellation.cost_of_direction
+        cost[UNDERWAY] = 0  # paid when the move began
         self._cost = cost
         self._spent = 0
         self._sets = np.empty(0, dtype=np.uint8)

@@ -18,10 +18,12 @@ from trihex.fields import make_n_scheme
 from trihex.files import new_file, suffix_of
 from trihex.judging import Report, make_report
 from trihex.pictures import FOG, FOG_BARRIER, palette
-from trihex.plans import Plan
+from trihex.plans import Motion
+from trihex.running import Run, RunReport, make_run_report
 from trihex.viewer.bundle import Bundle, encode
 from trihex.viewer.script import module, source_of
 from trihex.viewer.show import show_plan
+from trihex.viewer.show_run import show_run
 
 PAGE_SUFFIXES = (".html",)
 _POLICY = (
@@ -79,15 +81,15 @@ def page_with(
     return html, policy
 
 
-def write_page(plan: Plan, path: str | os.PathLike[str], *, beside: Plan | None = None) -> None:
-    """Write a plan as one HTML file that plays it in any browser, without a network.
+def write_page(plan: Motion, path: str | os.PathLike[str], *, beside: Motion | None = None) -> None:
+    """Write a plan or a run as one HTML file that plays it in any browser, without a network.
 
     Parameters
     ----------
-    plan : Plan
+    plan : Plan or Run
     path : path
-    beside : Plan, optional
-        Another plan, to be played beside it on the same clock.
+    beside : Plan or Run, optional
+        Another one, to be played beside it on the same clock.
 
     Raises
     ------
@@ -98,23 +100,38 @@ def write_page(plan: Plan, path: str | os.PathLike[str], *, beside: Plan | None 
     OSError
         If the file cannot be written.
     """
-    check_type("plan", plan, Plan)
-    check_type("beside", beside, Plan, type(None))
-    write_report_page(make_report(plan), path, None if beside is None else make_report(beside))
+    check_type("plan", plan, Motion)
+    check_type("beside", beside, Motion, type(None))
+    write_report_page(_reported(plan), path, None if beside is None else _reported(beside))
 
 
-def write_report_page(report: Report, path: str | os.PathLike[str], beside: Report | None = None) -> None:
-    """Write a plan with its report as one HTML file; see `write_page`."""
+def _reported(motion: Motion) -> Report | RunReport:
+    if isinstance(motion, Run):
+        return make_run_report(motion)
+    return make_report(motion)  # type: ignore[arg-type]  # what is no run is a plan
+
+
+def write_report_page(
+    report: Report | RunReport, path: str | os.PathLike[str], beside: Report | RunReport | None = None
+) -> None:
+    """Write a plan or a run with its report as one HTML file; see `write_page`."""
     suffix_of(path, PAGE_SUFFIXES, "a page")
-    first = show_plan(report, make_n_scheme(report.plan.scenario))
+    first = _bundle_of(report)
     if beside is not None:
-        second = encode(*show_plan(beside, make_n_scheme(beside.plan.scenario)))
+        second = encode(*_bundle_of(beside))
         first = Bundle(first.header, {**first.arrays, "beside": np.frombuffer(second, dtype=np.uint8)})
-    name = report.plan.scenario.area.name
-    title = f"{report.plan.planner or 'plan'}{f' on {name}' if name else ''} - trihex"
+    motion = report.run if isinstance(report, RunReport) else report.plan
+    name = motion.scenario.area.name
+    title = f"{motion.planner or 'plan'}{f' on {name}' if name else ''} - trihex"
     html, _ = page_with(settings_of(host="alone"), first, title, is_alone=True)
     with new_file(path) as part:
         part.write_text(html, encoding="utf-8")
+
+
+def _bundle_of(report: Report | RunReport) -> Bundle:
+    if isinstance(report, RunReport):
+        return show_run(report)
+    return show_plan(report, make_n_scheme(report.plan.scenario))
 
 
 def _hash_of(text: str) -> str:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
+from trihex.areas import Scenario
 from trihex.errors import TooLargeError
 from trihex.fields import NScheme
 from trihex.formats import draft_of
-from trihex.judging import Report
+from trihex.judging import Conflict, Report
 from trihex.plans import make_playback
 from trihex.viewer.bundle import Bundle
 from trihex.viewer.document import document_of
@@ -29,7 +31,6 @@ def show_plan(report: Report, n_scheme: NScheme, name: str = "") -> Bundle:
     plan, scenario = report.plan, report.plan.scenario
     if plan.actions.size > MAX_ACTIONS:
         raise TooLargeError(f"the viewer plays at most {MAX_ACTIONS} robot steps, not {plan.actions.size}")
-    layout, tessellation, frame = scenario.area.layout, scenario.area.tessellation, scenario.area.frame
     document, arrays = document_of(draft_of(scenario))
     playback = make_playback(plan, n_scheme)
     jump_at, jump_to = plan.jump_tables
@@ -37,18 +38,10 @@ def show_plan(report: Report, n_scheme: NScheme, name: str = "") -> Bundle:
         "document": document,
         "plan": name,
         "summary": report.as_dict(),
-        "conflicts": [{"step": c.step, "text": str(c)} for c in report.audit.conflicts[:_MOST_CONFLICTS]],
+        "conflicts": told_conflicts(report.audit.conflicts),
         "steps": plan.steps,
-        "edge_cost": tessellation.edge_cost,
-        "seconds_per_step": frame and tessellation.longest_move * frame.cell_size,  # at 1 m/s, as in waypoints
-        "layout": {
-            "origin": layout.origin,
-            "pitch": layout.pitch,
-            "offsets": layout.offset_of_direction.tolist(),
-            "costs": tessellation.cost_of_direction.tolist(),
-            "durations": tessellation.duration_of_direction.tolist(),
-            "names": tessellation.direction_names,
-        },
+        "step_seconds": report.step_seconds,
+        **told_layout(scenario),
     }
     curves = {"spent": playback.spent.astype(np.float64), "least_total": playback.least_total.astype(np.float64)}
     counts = {name: getattr(playback, name).astype(np.int32) for name in ("moving", "waiting", "arrived")}
@@ -63,3 +56,24 @@ def show_plan(report: Report, n_scheme: NScheme, name: str = "") -> Bundle:
         "distance": n_scheme.distance,
     }
     return Bundle(header, arrays)
+
+
+def told_conflicts(conflicts: Sequence[Conflict]) -> list[dict[str, Any]]:
+    """Return the first conflicts as the page shows them."""
+    return [{"step": conflict.step, "text": str(conflict)} for conflict in conflicts[:_MOST_CONFLICTS]]
+
+
+def told_layout(scenario: Scenario) -> dict[str, Any]:
+    """Return where actions lead and what they cost."""
+    layout, tessellation = scenario.area.layout, scenario.area.tessellation
+    return {
+        "edge_cost": tessellation.edge_cost,
+        "layout": {
+            "origin": layout.origin,
+            "pitch": layout.pitch,
+            "offsets": layout.offset_of_direction.tolist(),
+            "costs": tessellation.cost_of_direction.tolist(),
+            "durations": tessellation.duration_of_direction.tolist(),
+            "names": tessellation.direction_names,
+        },
+    }

@@ -18,7 +18,7 @@ from trihex.viewer.page import settings_of
 from trihex.viewer.script import module, source_of
 
 
-def make_widget(record: Area | Scenario | Plan | Draft | None = None, *, height: int = 720) -> Any:
+def make_widget(record: Area | Scenario | Plan | Run | Draft | None = None, *, height: int = 720) -> Any:
     """Return the viewer as a widget for Jupyter and other notebooks.
 
     What is drawn and planned there can be had back in Python: ``widget.scenario`` and ``widget.plan`` are those of the
@@ -26,7 +26,7 @@ def make_widget(record: Area | Scenario | Plan | Draft | None = None, *, height:
 
     Parameters
     ----------
-    record : Area, Scenario or Plan, optional
+    record : Area, Scenario, Plan or Run, optional
         What is shown at first. Default: an area of rooms to play with.
     height : int
         In pixels.
@@ -56,7 +56,7 @@ def _widget_class() -> Any:
         _first = traitlets.Bytes(b"").tag(sync=True)
         height = traitlets.Int(720).tag(sync=True)
 
-        def __init__(self, record: Area | Scenario | Plan | Draft | None, height: int) -> None:
+        def __init__(self, record: Area | Scenario | Plan | Run | Draft | None, height: int) -> None:
             self._desk = Desk()
             self._cancelled: dict[str, threading.Event] = {}
             first = b"" if record is None else encode(*self._desk.show(record))

@@ -114,8 +114,9 @@ def parse_image(content: bytes, path: str | os.PathLike[str], options: AreaOptio
     occupied = is_free if options.invert else ~is_free
     name = Path(path).stem
     if options.edge_step is None:
-        if options.resolution is not None:
-            raise FormatError(f"{path}: resolution needs cell_size, the edge step of a cell in metres, or robot_radius")
+        if options.clearance or options.resolution is not None:
+            name = "resolution" if options.resolution is not None else "clearance"
+            raise FormatError(f"{path}: {name} needs cell_size, the edge step of a cell in metres, or robot_radius")
         return Draft(Area(options.tessellation, occupied, name))
     if options.resolution is None:
         raise FormatError(

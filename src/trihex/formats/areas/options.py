@@ -19,7 +19,7 @@ from trihex.areas import (
     tessellation_from,
 )
 from trihex.areas.coverage import Progress
-from trihex.errors import FormatError, check_choice
+from trihex.errors import FormatError, check_choice, check_number
 from trihex.record import Record
 
 UNKNOWNS = ("barrier", "free")
@@ -42,6 +42,8 @@ class AreaOptions(Record):
         ``.txt``, one cell for each letter, it only says how large a cell is.
     robot_radius : float
         In metres; how far robots are to keep from what is occupied, and half of how far from each other.
+    clearance : float
+        In metres; how much farther than that they keep, so that none touches at less than this beyond its way.
     unknown : {"barrier", "free"}
         What ground is that a ROS map does not know, and all that lies outside a ROS map or an image.
     threshold : float
@@ -72,6 +74,7 @@ class AreaOptions(Record):
     tessellation: Tessellation
     cell_size: float | None = None
     robot_radius: float = 0.0
+    clearance: float = 0.0
     unknown: str = "barrier"
     threshold: float = 0.5
     invert: bool = False
@@ -91,6 +94,7 @@ class AreaOptions(Record):
         check_choice("align", self.align, (*ALIGNS, "shift"), FormatError)
         if not isinstance(self.threshold, Real) or not 0 <= self.threshold <= 1:
             raise FormatError(f"threshold must be between 0 and 1, not {self.threshold!r:.80}")
+        check_number("clearance", self.clearance, 0, 1e9, FormatError)
         if not isinstance(self.wall_thickness, Real) or not 0 <= self.wall_thickness <= 1e3:
             raise FormatError(f"wall_thickness must be between 0 and 1000 metres, not {self.wall_thickness!r:.80}")
         if self.resolution is not None:
@@ -102,13 +106,18 @@ class AreaOptions(Record):
         """The cell size, or the least for robots of the radius; None where there is neither."""
         if self.cell_size is not None or not isinstance(self.robot_radius, Real) or not self.robot_radius > 0:
             return self.cell_size
-        return round_up_size(least_cell_size(self.tessellation, float(self.robot_radius), self.following))
+        return round_up_size(least_cell_size(self.tessellation, float(self.reach), self.following))
 
     def area_of(self, ground: Ground, covering: Covering, name: str, progress: Progress | None) -> Area:
         """Return the area that covers a ground as the options say."""
         if self.align == "corner":
             return cover(ground, covering, name=name, progress=progress)
         return cover_aligned(ground, covering, self.align, name=name)
+
+    @property
+    def reach(self) -> float:
+        """How far from its centre nothing may come to a robot, in metres."""
+        return self.robot_radius + self.clearance
 
     def covering_of(self, path: object, kind: str, east: float, south: float) -> Covering:
         """Return how to cover a place of so many metres; raise FormatError if there is no cell size or too large a one.
@@ -121,7 +130,7 @@ class AreaOptions(Record):
                 "cell_size 0.5 for half a metre (--cell-size on the command line), or how large robots are "
                 "(--robot-radius)"
             )
-        covering = Covering(self.tessellation, self.edge_step, self.robot_radius)
+        covering = Covering(self.tessellation, self.edge_step, self.reach)
         if max(east, south) < covering.cell_size:
             raise NoRoomError(
                 f"{path}: {kind} must be larger than a cell of {covering.cell_size:g} metres, not {east:.3g} by "

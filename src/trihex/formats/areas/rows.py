@@ -70,7 +70,7 @@ def framed(draft: Draft, options: AreaOptions, path: object) -> Draft:
     FormatError
         If they have a radius of robots: there are no walls to keep away from.
     """
-    if options.robot_radius:
+    if options.reach:
         raise FormatError(f"{path}: has one cell for each letter; robot_radius needs a place with walls in metres")
     if options.cell_size is None:
         return draft

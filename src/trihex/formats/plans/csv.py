@@ -12,30 +12,42 @@ from numpy.typing import NDArray
 from trihex.areas import Scenario, Tessellation, claimed
 from trihex.errors import FormatError
 from trihex.files import new_file
+from trihex.formats.plans.columns import columns_of, words_of_actions
 from trihex.formats.registry import PLAN_HEADER
 from trihex.formats.table import check_inside, parse_table, spelling_of
 from trihex.formats.text import Text
 from trihex.kernels.codes import JUMP, WAIT
-from trihex.plans import Plan, actions_of
+from trihex.plans import Motion, Plan, actions_of
 
 _BUFFER = 4 << 20  # bytes that the kernel fills in one call, some 10 ms
 
 
-def words_of_actions(tessellation: Tessellation) -> list[str]:
-    """Return the words of the column `action`; a table holds their indexes."""
-    north, south = tessellation.direction_names
-    return [*north, *south, "start", "wait", "jump"]
-
-
 def write_plan_csv(
-    plan: Plan, path: str | os.PathLike[str], *, progress: Callable[[int, int], None] | None = None
+    motion: Motion, path: str | os.PathLike[str], *, progress: Callable[[int, int], None] | None = None
 ) -> None:
     """Write header `robot,step,x,y,action,time` and a row for each robot and action.
 
     step is that in which the action ends, x, y the cell after it, time the running t_r. Where moves last as long as
     they cost, steps are ticks and rise by more than one. A robot that cannot arrive, or starts on a destination, has
     its row of step 0 only. Area, destinations and rules are not kept: whoever reads the file must name them again.
+
+    In a run the rows of a robot begin with the step after which it joined, and end when it is not there any more or all
+    is over; `late` is an action, too.
     """
+    if isinstance(motion, Plan):
+        _write_plan(motion, path, progress)
+        return
+    columns, rows = columns_of(motion), 50_000
+    with new_file(path) as part, open(part, "w", encoding="ascii", newline="\n") as file:
+        file.write(f"{PLAN_HEADER}\n")
+        for first in range(0, columns.robot.size, rows):
+            some = [column[first : first + rows].tolist() for column in columns[:6]]
+            file.writelines(f"{r},{s},{x},{y},{columns.words[a]},{t}\n" for r, s, x, y, a, t in zip(*some, strict=True))
+            if progress is not None:
+                progress(min(first + rows, columns.robot.size), columns.robot.size)
+
+
+def _write_plan(plan: Plan, path: str | os.PathLike[str], progress: Callable[[int, int], None] | None) -> None:
     from trihex.formats.kernels import table_text
     from trihex.kernels.signatures import given
 

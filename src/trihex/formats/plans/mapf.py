@@ -9,13 +9,16 @@ import numpy as np
 
 from trihex.errors import FormatError
 from trihex.files import new_file
-from trihex.plans import Plan
+from trihex.plans import Motion
 
 
-def write_mapf(plan: Plan, path: str | os.PathLike[str], *, progress: Callable[[int, int], None] | None = None) -> None:
+def write_mapf(
+    motion: Motion, path: str | os.PathLike[str], *, progress: Callable[[int, int], None] | None = None
+) -> None:
     """Write lines ``step:(x,y),(x,y),...,`` with the cell of each robot, (0, 0) in the north-west.
 
-    The format knows no robots that leave: one that has arrived repeats its destination.
+    The format knows no robots that leave: one that has arrived, left or broken down repeats its last cell,
+    one that joins a run later its first.
     No progress is told.
 
     Raises
@@ -23,13 +26,14 @@ def write_mapf(plan: Plan, path: str | os.PathLike[str], *, progress: Callable[[
     FormatError
         If the cells are no squares, or moves last longer than a step.
     """
-    area = plan.scenario.area
+    area = motion.scenario.area
     if area.tessellation.name != "square":
         raise FormatError(f"{path}: mapf-visualizer draws squares only; the plan is {area.tessellation.name}")
-    if not plan.has_steps:
+    if (motion.scenario.duration_of_direction > 1).any():
         raise FormatError(f"{path}: mapf-visualizer draws moves that last one step; here clock is 'costs'")
     with new_file(path) as part, open(part, "w", encoding="ascii", newline="\n") as file:
-        for step, cells in enumerate(plan.cells_by_step()):
-            x, y = area.cell_to_xy(np.where(cells < 0, plan.last_cell_of_robot, cells))
+        for step, cells in enumerate(motion.cells_by_step()):
+            elsewhere = np.where(step < motion.joined, motion.robots, motion.last_cell_of_robot)
+            x, y = area.cell_to_xy(np.where(cells < 0, elsewhere, cells))
             places = "".join(f"({one},{other})," for one, other in zip(x.tolist(), y.tolist(), strict=True))
             file.write(f"{step}:{places}\n")

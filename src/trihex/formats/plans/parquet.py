@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 from trihex.areas import Scenario
 from trihex.errors import FormatError, MissingExtraError, check_choice
 from trihex.files import new_file
-from trihex.formats.plans.csv import plan_of_table, words_of_actions
+from trihex.formats.plans.columns import columns_of, words_of_actions
+from trihex.formats.plans.csv import plan_of_table
 from trihex.formats.registry import PLAN_HEADER
-from trihex.kernels.codes import JUMP, WAIT
-from trihex.plans import Plan, cells_of_rows, steps_of_actions
+from trihex.plans import Motion, Plan
 
 # What a file may unpack to: rows take 48 bytes and more while they are read.
 MAX_ROWS = 10**8
@@ -25,7 +25,7 @@ MAX_UNPACKED = 2**32
 
 
 def write_plan_parquet(
-    plan: Plan, path: str | os.PathLike[str], *, progress: Callable[[int, int], None] | None = None
+    motion: Motion, path: str | os.PathLike[str], *, progress: Callable[[int, int], None] | None = None
 ) -> None:
     """Write a row for each robot and action, as in CSV: robot, step, x, y (int64), action (words), time (int64).
 
@@ -37,42 +37,18 @@ def write_plan_parquet(
         If pyarrow is not installed.
     """
     arrow, parquet = _import_pyarrow()
-    area, tessellation = plan.scenario.area, plan.scenario.area.tessellation
-    length = np.diff(plan.first_action)
-    first_row = np.concatenate([[0], np.cumsum(length + 1)])
-    cells = cells_of_rows(plan, first_row)
-    x, y = area.cell_to_xy(cells)
-    robot = np.repeat(np.arange(length.size), length + 1)
-    is_start = np.zeros(cells.size, dtype=bool)
-    is_start[first_row[:-1]] = True
-    words = words_of_actions(tessellation)
-    before = np.append(cells[:1], cells[:-1])
-    orientation = tessellation.orientation_of_cell(*area.cell_to_xy(before))
-    word_of_action = np.arange(WAIT + 1)
-    word_of_action[[WAIT, JUMP]] = len(words) - 2, len(words) - 1
-    cost_of_action = np.zeros(WAIT + 1, dtype=np.int64)
-    cost_of_action[: tessellation.direction_count] = tessellation.cost_of_direction
-    cost_of_action[WAIT] = plan.scenario.waiting_cost
-    word = np.full(cells.size, len(words) - 3)
-    word[~is_start] = word_of_action[plan.actions]
-    is_move = word < tessellation.direction_count
-    word[is_move] += orientation[is_move] * tessellation.direction_count
-    cost = np.zeros(cells.size, dtype=np.int64)
-    cost[~is_start] = cost_of_action[plan.actions]
-    total = np.cumsum(cost)
-    step = np.zeros(cells.size, dtype=np.int64)
-    step[~is_start] = steps_of_actions(plan)
+    columns = columns_of(motion)
     # A word of a triangle that points south may be one of those that point north, too: each is kept once.
-    distinct = list(dict.fromkeys(words))
-    index = np.array([distinct.index(one) for one in words], dtype=np.int32)
+    distinct = list(dict.fromkeys(columns.words))
+    index = np.array([distinct.index(one) for one in columns.words], dtype=np.int32)
     table = arrow.table(
         {
-            "robot": robot,
-            "step": step,
-            "x": x,
-            "y": y,
-            "action": arrow.DictionaryArray.from_arrays(index[word], distinct),
-            "time": total - total[first_row[:-1][robot]],
+            "robot": columns.robot,
+            "step": columns.step,
+            "x": columns.x,
+            "y": columns.y,
+            "action": arrow.DictionaryArray.from_arrays(index[columns.word], distinct),
+            "time": columns.time,
         }
     )
     # Arrow takes no path that is not UTF-8.

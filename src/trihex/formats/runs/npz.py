@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import zipfile
 from collections.abc import Callable
 from math import isnan
 from typing import Any
@@ -14,7 +15,7 @@ from trihex.errors import FormatError, check_type
 from trihex.files import read_bytes
 from trihex.formats.archive import Entries, pack, unpack
 from trihex.formats.scenarios.arrays import LATER_ENTRIES, SCENARIO_ENTRIES, scenario_arrays, scenario_from
-from trihex.kernels.codes import LATE, WAIT
+from trihex.kernels.codes import LATE, UNDERWAY, WAIT
 from trihex.running import BROKEN, KINDS, Event, Occurrence, Run, Sensor
 
 VERSION = 1
@@ -93,6 +94,15 @@ def write_run(run: Run, path: str | os.PathLike[str], *, progress: Callable[[int
         path,
         progress,
     )
+
+
+def is_run(path: str | os.PathLike[str]) -> bool:
+    """Tell whether a file looks like one that `write_run` made."""
+    try:
+        with zipfile.ZipFile(path) as archive:
+            return "run_actions.npy" in archive.namelist()
+    except (zipfile.BadZipFile, OSError, ValueError, NotImplementedError):
+        return False
 
 
 def read_run(path: str | os.PathLike[str]) -> Run:
@@ -183,12 +193,12 @@ def _check(run: Run, path: object) -> None:
         raise FormatError(f"{path}: the first robots must be those of the scenario")
     if robots and (run.robots.min() < 0 or run.robots.max() >= area.cell_count or run.state_of_robot.max() > BROKEN):
         raise FormatError(f"{path}: robots must start in cells of the area, and their states be 0..{BROKEN}")
-    is_action = (run.actions < area.tessellation.direction_count) | (run.actions == WAIT) | (run.actions == LATE)
+    is_action = (run.actions < area.tessellation.direction_count) | np.isin(run.actions, (WAIT, LATE, UNDERWAY))
     if not is_action.all():
-        raise FormatError(f"{path}: actions must be directions, {WAIT} or {LATE}")
+        raise FormatError(f"{path}: actions must be directions, {WAIT}, {LATE} or {UNDERWAY}")
     site: NDArray[np.int32] = layout.cell_to_site(run.robots)
     for step, action in enumerate(run.actions, 1):
-        moves = np.flatnonzero(action < LATE)
+        moves = np.flatnonzero(action < UNDERWAY)
         site[moves] += layout.offset_of_direction[site[moves] & 1, action[moves]]
         row, column = np.divmod(site - layout.origin, layout.pitch)
         outside = np.flatnonzero((row < 0) | (row >= layout.height) | (column >= layout.width))

@@ -36,6 +36,7 @@ class AreaTable(Table):
     # How the file at `path` is read; see `formats.options.AreaOptions`.
     cell_size: Annotated[Number, Field(gt=0)] | None = None
     robot_radius: Annotated[Number, Field(ge=0)] | None = None
+    clearance: Annotated[Number, Field(ge=0)] | None = None
     unknown: Annotated[str, choice("it", UNKNOWNS)] | None = None
     threshold: Annotated[Number, Field(ge=0, le=1)] | None = None
     invert: bool | None = None
@@ -87,6 +88,10 @@ def _beside(value: str) -> str:
 _Output = Annotated[str, AfterValidator(_beside)]
 
 
+# Those of [outputs] that are paths.
+OUTPUT_PATHS = ("plan", "summary", "picture", "waypoints", "certificate")
+
+
 class OutputsTable(Table):
     """[outputs]: what `trihex plan` writes, unless its options say otherwise."""
 
@@ -96,6 +101,8 @@ class OutputsTable(Table):
     waypoints: _Output | None = None
     certificate: _Output | None = None
     speed: Annotated[Number, Field(gt=0)] | None = None
+    turn_time: Annotated[Number, Field(ge=0)] | None = None
+    frame_id: str | None = None
 
 
 class ScenarioTable(Table):

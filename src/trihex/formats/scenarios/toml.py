@@ -18,7 +18,7 @@ from trihex.files import new_file
 from trihex.formats.areas.letters import draft_of_letters
 from trihex.formats.areas.options import AreaOptions
 from trihex.formats.draft import Draft
-from trihex.formats.scenarios.keys import AreaTable, ScenarioTable
+from trihex.formats.scenarios.keys import OUTPUT_PATHS, AreaTable, ScenarioTable
 from trihex.formats.schema import check_document
 from trihex.formats.starts.starts import read_starts
 from trihex.formats.text import Text
@@ -106,7 +106,7 @@ def _draft_of(
 def _outputs(table: ScenarioTable, path: Path) -> dict[str, Any]:
     """Return the outputs by name, with paths beside the scenario."""
     given = {name: value for name, value in table.outputs.model_dump().items() if value is not None}
-    return {name: path.parent / value if isinstance(value, str) else value for name, value in given.items()}
+    return {name: path.parent / value if name in OUTPUT_PATHS else value for name, value in given.items()}
 
 
 def _area_draft(table: AreaTable, path: Path, read_area_draft: Callable[[Path, AreaOptions], Draft]) -> Draft:
@@ -140,7 +140,8 @@ def write_scenario_toml(
 ) -> None:
     """Write a scenario with all that is needed to plan it again: rows of the area, cells of robots and destinations.
 
-    `outputs` are paths by name, and `speed`; paths that do not lie beside the scenario or below it are left out.
+    `outputs` are paths by name, and how waypoints are written; paths that do not lie beside the scenario or below it
+    are left out.
     """
     area = scenario.area
     lines = [
@@ -200,8 +201,8 @@ def _area_lines(area: Area) -> list[str]:
 def _output_lines(outputs: dict[str, Any], path: Path) -> list[str]:
     lines = []
     for name, value in outputs.items():
-        if isinstance(value, float):
-            lines.append(f"{name} = {value!r}")
+        if name not in OUTPUT_PATHS:
+            lines.append(f"{name} = {_text(value) if isinstance(value, str) else repr(float(value))}")
             continue
         beside = os.path.relpath(value, path.parent)
         if not beside.isprintable():

@@ -71,15 +71,15 @@ def write_jupedsim(tracks: Tracks, path: str | os.PathLike[str]) -> None:
 
 def _rows_of_frames(tracks: Tracks) -> Iterator[tuple[float, ...]]:
     """Yield frame, robot, place and heading, frame by frame, of every robot that is in the world in it."""
-    after = np.append(tracks.step[1:], 0)
-    is_last = np.zeros(tracks.step.size, dtype=bool)
-    is_last[tracks.first_row[1:] - 1] = True
-    frames = np.where(is_last, 1, after - tracks.step)  # from each row up to the next of its robot
-    row = np.repeat(np.arange(frames.size), frames)
+    own = np.flatnonzero(tracks.ends_step)
+    step, robot = tracks.step[own], tracks.robot[own]
+    is_last = np.append(np.diff(robot) > 0, True)[: own.size]
+    frames = np.where(is_last, 1, np.append(step[1:], 0) - step)  # from each row up to the next of its robot
+    row = np.repeat(np.arange(own.size), frames)
     later = np.arange(row.size) - np.repeat(np.cumsum(frames) - frames, frames)
     share, next_row = later / frames[row], np.where(is_last[row], row, row + 1)
-    x, y = (own[row] + share * (own[next_row] - own[row]) for own in (tracks.x, tracks.y))
-    step, robot, yaw = tracks.step[row] + later, tracks.robot[row], tracks.yaw[row]
+    x, y = (at[own[row]] + share * (at[own[next_row]] - at[own[row]]) for at in (tracks.x, tracks.y))
+    step, robot, yaw = step[row] + later, robot[row], tracks.yaw[own[row]]
     order = np.lexsort((robot, step))
     columns = (step, robot, x, y, np.cos(yaw), np.sin(yaw))
     yield from zip(*(column[order].tolist() for column in columns), strict=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from collections.abc import Iterator
 from math import cos, sin
 from typing import Any
@@ -11,7 +12,8 @@ from typing import Any
 from trihex.files import new_file
 from trihex.formats.tracks.tracks import Tracks
 
-FRAME_ID = "map"
+# Names that YAML takes for nothing else; others are quoted.
+_PLAIN = re.compile(r"(?!(?:true|false|yes|off|null)$)[a-z_]{3,}")
 
 
 def write_nav_path_json(tracks: Tracks, path: str | os.PathLike[str]) -> None:
@@ -37,7 +39,7 @@ def _message(tracks: Tracks, robot: int) -> dict[str, Any]:
     columns = (column[rows].tolist() for column in (tracks.seconds, tracks.x, tracks.y, tracks.yaw))
     poses = [
         {
-            "header": _header(seconds),
+            "header": _header(seconds, tracks.frame_id),
             "pose": {
                 "position": {"x": round(x, 6), "y": round(y, 6), "z": 0.0},
                 "orientation": {"x": 0.0, "y": 0.0, "z": round(sin(yaw / 2), 9), "w": round(cos(yaw / 2), 9)},
@@ -45,12 +47,12 @@ def _message(tracks: Tracks, robot: int) -> dict[str, Any]:
         }
         for seconds, x, y, yaw in zip(*columns, strict=True)
     ]
-    return {"header": _header(0.0), "poses": poses}
+    return {"header": _header(0.0, tracks.frame_id), "poses": poses}
 
 
-def _header(seconds: float) -> dict[str, Any]:
+def _header(seconds: float, frame_id: str) -> dict[str, Any]:
     whole, nanoseconds = divmod(round(seconds * 1e9), 10**9)
-    return {"stamp": {"sec": whole, "nanosec": nanoseconds}, "frame_id": FRAME_ID}
+    return {"stamp": {"sec": whole, "nanosec": nanoseconds}, "frame_id": frame_id}
 
 
 def _yaml_lines(value: dict[str, Any], indent: str) -> Iterator[str]:
@@ -66,4 +68,5 @@ def _yaml_lines(value: dict[str, Any], indent: str) -> Iterator[str]:
                 yield f"{indent}- {first.lstrip()}"
                 yield from others
         else:
-            yield f"{indent}{key}: {inner}\n"
+            is_plain = not isinstance(inner, str) or _PLAIN.fullmatch(inner)
+            yield f"{indent}{key}: {inner if is_plain else json.dumps(inner)}\n"

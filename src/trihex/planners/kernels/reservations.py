@@ -206,3 +206,22 @@ def reserve(start, actions, terrain, reserved):
             reserved.site[step * size + site] = 1 + k
         elif reserved.capacity > 0:
             reserved.entries[step * reserved.ends + reserved.number[site]] += 1
+
+
+@kernel(types.void(types.int64, IN_U8, TERRAIN, RESERVED))
+def unreserve(start, actions, terrain, reserved):
+    """Free what `reserve` took for a way."""
+    size = len(terrain.distance)
+    site = start
+    reserved.site[site] = 0
+    for i in range(len(actions)):
+        row = (i + 1) * size
+        k = np.int64(actions[i])
+        if k != WAIT:
+            if k >= terrain.first_vertex_move:
+                reserved.vertex[row + site + terrain.vertex[site & 1, k]] = 0
+            site += terrain.offset[site & 1, k]
+        if terrain.distance[site] > 0:
+            reserved.site[row + site] = 0
+        elif reserved.capacity > 0:
+            reserved.entries[(i + 1) * reserved.ends + reserved.number[site]] -= 1

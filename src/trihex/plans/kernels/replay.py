@@ -1,4 +1,4 @@
-"""Replay: robots along their actions, to where these lead, at what cost, through which cells."""
+"""Replay: robots along their actions, to where these lead, at what cost, through which cells, with how many turns."""
 
 from typing import NamedTuple
 
@@ -6,7 +6,7 @@ from numba import types
 
 from trihex.kernels.actions import ACTIONS, site_after
 from trihex.kernels.codes import JUMP, WAIT
-from trihex.kernels.signatures import IN_I32, IN_U16, OUT_I32, OUT_I64, declared, kernel
+from trihex.kernels.signatures import IN_I32, IN_U16, OUT_F64, OUT_I32, OUT_I64, TABLE_F64, declared, kernel
 
 
 class Replayed(NamedTuple):
@@ -54,6 +54,30 @@ def follow(actions, first_robot, last_robot, step, next_step, site):
         for i in range(first, last):
             at = site_after(at, i, actions)
         site[robot] = at
+
+
+@kernel(types.void(IN_I32, ACTIONS, types.int64, types.int64, TABLE_F64, OUT_F64))
+def sum_turns(start, actions, first_robot, last_robot, heading, turned):
+    """Add up by how many degrees each robot turns from one move to the next; `heading` by parity and direction.
+
+    To wait is no turn, and after a jump nobody knows where the robot looks.
+    """
+    for robot in range(first_robot, last_robot):
+        site = start[robot]
+        before = -1.0
+        total = 0.0
+        for i in range(actions.first[robot], actions.first[robot + 1]):
+            action = actions.action[i]
+            if action == JUMP:
+                before = -1.0
+            elif action != WAIT:
+                after = heading[site & 1, action]
+                if before >= 0.0:
+                    change = abs(after - before)
+                    total += min(change, 360.0 - change)
+                before = after
+            site = site_after(site, i, actions)
+        turned[robot] = total
 
 
 @kernel(types.int64(IN_I32, ACTIONS, types.int64, types.int64, IN_U16))

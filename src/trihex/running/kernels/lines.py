@@ -108,18 +108,19 @@ def find_slots(sites, ways, forest, slots):
         slots[i] = slot_of(np.int64(sites[i]), ways, forest)
 
 
-@kernel(types.int64(IN_I64, OUT_I64, OUT_I64))
-def line_up(slots, slot_of_line, line):
+@kernel(types.int64(IN_I64, types.int64, OUT_I64, OUT_I64))
+def line_up(slots, headway, slot_of_line, line):
     """Fill how long the line is in each slot that is taken, given the sorted slots of all robots; return how many.
 
-    One robot leaves the line with each step towards the end of the branch, those that stand in the slot join.
+    With each step towards the end of the branch it becomes one place shorter; each of those that stand in the slot adds
+    `headway` places, the number of the shortest moves that lie between two robots that go through one cell.
     """
     count = 0
     for i in range(len(slots)):
         if count > 0 and slots[i] == slot_of_line[count - 1]:
-            line[count - 1] += 1
+            line[count - 1] += headway
             continue
-        line[count] = 1
+        line[count] = headway
         if count > 0 and slots[i] >> 32 == slot_of_line[count - 1] >> 32:
             line[count] += max(0, line[count - 1] - (slots[i] - slot_of_line[count - 1]))
         slot_of_line[count] = slots[i]

@@ -1,6 +1,6 @@
 // Clock: which step is shown, how fast it goes on, and the controls for it.
 
-import { h, number } from "./words.js";
+import { h, number, secondsOf } from "./words.js";
 import { button } from "./controls.js";
 
 const SPEEDS = [0.5, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96]; // steps per second
@@ -94,7 +94,7 @@ export class Clock {
     this.at = Math.min(app.steps, this.at + passed * this.stepsPerSecond);
     if (this.at >= app.steps) {
       this.isPlaying = false;
-      app.say("The last robot has arrived.");
+      app.say(app.runs[0]?.playback.worlds ? "The run is over." : "The last robot has arrived.");
     }
     this.show();
   }
@@ -110,12 +110,15 @@ export class Clock {
     this.playButton.textContent = this.isPlaying || live?.isPlaying ? "Pause" : "Play";
     if (live) this.text.textContent = `step ${number(steps)} · ${minutes(live.seconds)} live`;
     else if (!runs[0]) this.text.textContent = "no plan";
-    else this.text.textContent = `step ${number(this.step)} / ${number(steps)}${this.#secondsIn(runs[0])}`;
+    else this.text.textContent = `step ${number(this.step)} / ${number(steps)}${this.#seconds}`;
     this.#showStep(runs.filter(Boolean));
   }
 
-  // How long robots are on their way in the world, where there are metres.
-  #secondsIn({ seconds_per_step: each }) { return each ? ` · ${(this.at * each).toFixed(1)} s` : ""; }
+  // How long robots are on their way in the world, where all areas are in metres and their steps last alike.
+  get #seconds() {
+    const { runs, steps } = this.app, [one, other] = runs.map((run) => run?.step_seconds);
+    return one && (other ?? one) === one ? ` · ${secondsOf(this.at * one)} of ${secondsOf(steps * one)}` : "";
+  }
 
   // What depends on the step is made anew only where there is another one.
   #showStep(runs) {

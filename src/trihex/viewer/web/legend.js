@@ -26,16 +26,19 @@ export class Legend {
     const { live, runs: [run], doc, field, stage } = this.app, { values } = this.app.panes[0];
     const entries = [["barrier", doc.ground ? "wall" : "barrier", "cell"], ["destination", "destination"]];
     if (doc.ground) entries.splice(1, 0, ["tight", "robots do not fit", "cell"]);
-    if (live?.known) entries.push(["fog", "not seen", "cell"], ["fog_barrier", "barrier not seen", "cell"]);
+    const isFoggy = live?.known || run?.playback.worlds?.knownSince;
+    if (isFoggy) entries.push(["fog", "not seen", "cell"], ["fog_barrier", "barrier not seen", "cell"]);
     if (live) {
       entries.push(["moving", "moving"], ["waiting", "waiting"], ["final", "arriving"]);
       if (live.hasLate) entries.push(["late", "late"]);
       const { cut_off: cutOff, broken } = live.last, words = [cutOff && "cut off", broken && "broken"].filter(Boolean);
       if (words.length) entries.push(["stranded", words.join(" or ")]);
-    } else if (run) entries.push(["moving", "moving"], ["waiting", "waiting"], ["final", "arriving"]);
-    else if (doc.robots.length) entries.push(["moving", "robot"]);
+    } else if (run) {
+      entries.push(["moving", "moving"], ["waiting", "waiting"], ["final", "arriving"]);
+      if (run.summary.delays) entries.push(["late", "late"]);
+    } else if (doc.robots.length) entries.push(["moving", "robot"]);
     const isStranded = run?.summary.unreachable || stage.still?.robots.state.includes(STRANDED);
-    if (!live && isStranded) entries.push(["stranded", "cannot arrive"]);
+    if (!live && (isStranded || run?.summary.broken)) entries.push(["stranded", "cannot arrive"]);
     if (values && field.hasUnreached(values)) entries.push(["unreached", "not reached", "cell"]);
     return entries;
   }

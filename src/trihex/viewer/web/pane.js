@@ -39,6 +39,7 @@ export class Pane {
     this.paths = null; // cells of all robots, or null where they are not shown
     this.cursor = -1;
     this.known = null; // of each cell, whether a robot has seen it; null if all are known
+    this.world = null; // of a run, in the step that is shown
     this.crosses = []; // cells where something was refused
     this.isStale = { map: true, base: true, colours: true };
     this.isRough = false; // while a hand moves the picture

@@ -147,7 +147,7 @@ export class Planning {
   async bound() {
     const { app } = this;
     for (const run of app.runs) {
-      if (!run || run.summary.optimal || run.isBounding) continue;
+      if (!run?.plan || run.summary.optimal || run.isBounding) continue; // a run that is over has no name
       run.isBounding = true;
       try {
         const { header } = await app.host.ask({ op: "bound", plan: run.plan });

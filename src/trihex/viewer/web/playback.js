@@ -2,15 +2,16 @@
 
 import { R3 } from "./shapes.js";
 import { NOT_REACHED, centreOf, shapeOf } from "./documents.js";
+import { Worlds } from "./worlds.js";
 
-const WAIT = 255, JUMP = 254;
+const WAIT = 255, JUMP = 254, LATE = 253; // as in codes.py
 
-export const HIDDEN = 0, MOVING = 1, WAITING = 2, FINAL = 3, STRANDED = 4; // and 5, late, in live runs
+export const HIDDEN = 0, MOVING = 1, WAITING = 2, FINAL = 3, STRANDED = 4, LATE_SET = 5;
 
 const MOST_DRAWN = 500000; // actions of robots whose paths are drawn
 
 const KEPT = ["site", "index", "begun"]; // where each robot is along its actions
-const CURVES = ["moving", "waiting", "arrived", "spent", "least_total"]; // by step
+const CURVES = ["moving", "waiting", "arrived", "spent", "least_total"]; // by step; a run has no last one
 
 // Where the robots of a document stand before there is a plan.
 export class Still {
@@ -40,6 +41,11 @@ export class Playback {
     this.actions = arrays.actions;
     this.first = arrays.first_action;
     this.hasArrived = arrays.has_arrived;
+    const none = new Int32Array(this.count);
+    this.joined = arrays.joined ?? none; // the step after which each robot is there: those of a run may come later
+    this.hasLeft = arrays.has_left ?? none;
+    this.cutOffSince = arrays.cut_off_since ?? none.map(() => -1);
+    this.worlds = header.worlds ? new Worlds(doc, header.worlds, arrays.known_since) : null;
     this.jumpAt = arrays.jump_at;
     this.jumpTo = arrays.jump_to;
     this.curves = {};
@@ -54,7 +60,7 @@ export class Playback {
     const start = Int32Array.from(doc.robots, siteOf);
     this.site = start; // whose centre each was at last
     this.index = this.first.slice(0, this.count); // of the action that it does
-    this.begun = new Int32Array(this.count); // when it began it
+    this.begun = Int32Array.from(this.joined); // when it began it
     this.next = new Int32Array(this.count); // the site to which that leads
     // Every so many steps one is kept: as many as fit into some 64 MB.
     this.every = Math.max(32, Math.ceil((KEPT.length * this.steps * this.count) / 2 ** 24));
@@ -93,15 +99,25 @@ export class Playback {
   #lookAhead() {
     this.#aim();
     this.#locate(this.next, this.x1, this.y1);
-    const { first, actions, index, hasArrived, state, site, x0, y0, x1, y1 } = this, { bend } = shapeOf(this.doc);
+    const { actions, index, site, x0, y0, x1, y1 } = this, { bend } = shapeOf(this.doc);
     for (let r = 0; r < this.count; r++) {
-      const i = index[r], end = first[r + 1];
-      [this.bx[r], this.by[r]] = i < end && actions[i] < JUMP ? bend(site[r] & 1, x1[r] - x0[r], y1[r] - y0[r]) : [0, 0];
-      if (i === end) state[r] = hasArrived[r] ? HIDDEN : STRANDED;
-      else if (hasArrived[r] && i + 1 === end) state[r] = FINAL;
-      else state[r] = actions[i] === WAIT ? WAITING : MOVING;
+      const isMove = this.#acts(r) && actions[index[r]] < LATE;
+      [this.bx[r], this.by[r]] = isMove ? bend(site[r] & 1, x1[r] - x0[r], y1[r] - y0[r]) : [0, 0];
+      this.state[r] = this.#setOf(r);
     }
     if (!this.hasSteps) this.#cut();
+  }
+
+  // Whether a robot does something in the step after `step`: it is there, and has something more to do.
+  #acts(r) { return this.step >= this.joined[r] && this.index[r] < this.first[r + 1]; }
+
+  #setOf(r) {
+    const { first, actions, index, step, cutOffSince, hasArrived, hasLeft } = this, i = index[r];
+    if (step < this.joined[r]) return HIDDEN;
+    if (i === first[r + 1]) return hasArrived[r] || hasLeft[r] ? HIDDEN : STRANDED;
+    if (cutOffSince[r] >= 0 && cutOffSince[r] <= step) return STRANDED;
+    if (hasArrived[r] && i + 1 === first[r + 1]) return FINAL;
+    return actions[i] === LATE ? LATE_SET : actions[i] === WAIT ? WAITING : MOVING;
   }
 
   // Cut from the whole ways what robots do of them from this step to the next.
@@ -122,12 +138,12 @@ export class Playback {
 
   // Where what each does leads.
   #aim() {
-    const { first, actions, index, site, next } = this, [even, odd] = this.offsets;
+    const { actions, index, site, next } = this, [even, odd] = this.offsets;
     for (let r = 0; r < this.count; r++) {
       const i = index[r], at = site[r];
-      if (i === first[r + 1]) next[r] = at;
-      else if (actions[i] < JUMP) next[r] = at + (at & 1 ? odd : even)[actions[i]];
-      else next[r] = actions[i] === WAIT ? at : this.jumpTo[this.#jumpOf(i)];
+      if (!this.#acts(r)) next[r] = at;
+      else if (actions[i] < LATE) next[r] = at + (at & 1 ? odd : even)[actions[i]];
+      else next[r] = actions[i] === JUMP ? this.jumpTo[this.#jumpOf(i)] : at;
     }
   }
 
@@ -191,17 +207,17 @@ export class Playback {
       const y = Math.floor((site - origin) / pitch);
       return y * this.doc.width + (site - origin - y * pitch);
     };
-    let site = this.kept[0].site[r], d = 0, w = 0, step = 0;
-    const rows = [{ step, cell: cellOf(site), d, w, action: "start" }];
+    let site = this.kept[0].site[r], d = 0, w = 0, step = this.joined[r];
+    const rows = [{ step: 0, cell: cellOf(site), d, w, action: "start" }]; // before it joins it stands where it will
     for (let i = this.first[r]; i < this.first[r + 1]; i++) {
       const action = this.actions[i], parity = site & 1;
-      if (action === WAIT) w += wait;
+      if (action === WAIT || action === LATE) w += wait;
       else if (action === JUMP) site = this.jumpTo[this.#jumpOf(i)];
       else {
         d += costs[action];
         site += this.offsets[parity][action];
       }
-      const name = action === WAIT ? "wait" : action === JUMP ? "jump" : names[parity][action];
+      const name = { [WAIT]: "wait", [JUMP]: "jump", [LATE]: "late" }[action] ?? names[parity][action];
       step += this.duration[action];
       rows.push({ step, cell: cellOf(site), d, w, action: name });
     }

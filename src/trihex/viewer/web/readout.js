@@ -43,9 +43,9 @@ export class Readout {
 
   #ahead(doc, i, cell) {
     const { live, runs, fields, settings } = this.app, words = [];
-    const distance = i ? runs[1]?.playback.distance : fields?.distance;
+    const isRun = runs[i]?.playback.worlds, distance = i ? runs[1]?.playback.distance : fields?.distance;
     if (live?.known && !live.known[cell]) words.push("not seen");
-    if (distance && !doc.barriers[cell]) {
+    if (distance && !isRun && !doc.barriers[cell]) {
       words.push(distance[cell] === NOT_REACHED ? "not reached" : `${number(distance[cell])} to go`);
     }
     const names = settings.names?.[`${doc.header.tessellation} ${doc.header.neighbourhood}`];

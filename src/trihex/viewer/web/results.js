@@ -1,6 +1,6 @@
 // Results: the numbers of plans, or of a run that is under way.
 
-import { h, number, percent, title } from "./words.js";
+import { h, number, percent, secondsOf, title } from "./words.js";
 import { check, note, section } from "./controls.js";
 import { Chart } from "./chart.js";
 import { OF_BOUNDS, OF_LIVE, OF_PLAN, UNITS } from "./sentences.js";
@@ -16,8 +16,6 @@ function gapOf({ gap, lower_bound_name: bound }) {
   return bound === "optimum" ? percent(gap) : `at most ${percent(gap)}`;
 }
 
-const secondsIn = (seconds) => (seconds < 100 ? `${Number(seconds.toPrecision(2))} s` : `${number(seconds / 60)} min`);
-
 // What the unit of all times is.
 function unitsOf({ summary: { waiting_cost: wait }, edge_cost: edge }) {
   return `${UNITS} ${number(edge)}, a wait ${number(wait)}. Point at a number to read what it means.`;
@@ -25,21 +23,26 @@ function unitsOf({ summary: { waiting_cost: wait }, edge_cost: edge }) {
 
 const BOUND = "Lower bound";
 
-// What a row is called, and what it says of the summary of a plan.
+// What a row is called, of what it tells, and what it says of the summary of a plan or a run.
 const ROWS = [
-  ["Total time", (summary) => number(summary.total_time)],
-  [BOUND, (summary) => `${number(summary.lower_bound)} (${summary.lower_bound_name})`],
-  ["Gap to the optimum", gapOf],
-  ["Steps", ({ steps }, { seconds_per_step: each }) =>
-    `${number(steps)}${each ? ` (${secondsIn(steps * each)} at 1 m/s)` : ""}`],
-  ["Moves d", (summary) => number(summary.total_distance)],
-  ["Waiting w", (summary) => number(summary.total_waiting)],
-  ["Longest t", (summary) => number(summary.longest_time)],
-  ["Arrived", (summary) => `${number(summary.arrived)} of ${number(summary.robots)}`],
-  ["Conflicts", (summary) => (summary.conflicts ? number(summary.conflicts) : "none")],
-  ["Moves past corners", ({ corner_moves: moves }) => (moves ? number(moves) : "none")],
-  ["Planned in", ({ seconds }) => (seconds.plan === null ? "–" : `${seconds.plan.toPrecision(2)} s`)],
+  ["Total time", "total_time", (summary) => number(summary.total_time)],
+  ["With full knowledge, no events", "reference_time", (summary) => number(summary.reference_time)],
+  ["Price", "price", ({ price }) => (price === null ? "–" : percent(price))],
+  [BOUND, "lower_bound", (summary) => `${number(summary.lower_bound)} (${summary.lower_bound_name})`],
+  ["Gap to the optimum", "total_distance", gapOf],
+  ["Steps", "steps", (summary) => number(summary.steps)],
+  ["Last arrival", "last_arrival_seconds", (summary) => secondsOf(summary.last_arrival_seconds)],
+  ["Moves d", "total_distance", (summary) => number(summary.total_distance)],
+  ["Waiting w", "total_waiting", (summary) => number(summary.total_waiting)],
+  ["Longest t", "longest_time", (summary) => number(summary.longest_time)],
+  ["Arrived", "arrived", (summary) => `${number(summary.arrived)} of ${number(summary.robots)}`],
+  ["Events", "events", (summary) => number(summary.events)],
+  ["Conflicts", "conflicts", (summary) => (summary.conflicts ? number(summary.conflicts) : "none")],
+  ["Moves past corners", "corner_moves", ({ corner_moves: moves }) => (moves ? number(moves) : "none")],
+  ["Planned in", "seconds", ({ seconds }) => (seconds.plan === null ? "–" : `${seconds.plan.toPrecision(2)} s`)],
 ];
+
+const has = (summary, key) => summary[key] !== undefined && (summary[key] !== null || key === "price");
 
 function rowsOfLive({ last, summary, known }) {
   const [now, median, worst] = last.milliseconds.map((value) => value.toFixed(1));
@@ -91,9 +94,10 @@ export class Results {
     const name = ({ summary: { planner, tessellation } }) => `${planner || "plan"}` +
       `${runs.length > 1 && tessellation !== this.app.doc.header.tessellation ? ` (${tessellation})` : ""}`;
     const heads = runs.map((run, i) => h("th", { scope: "col", class: `run${i}` }, name(run)));
-    const lines = ROWS.map(([label, of]) => h("tr", { title: OF_PLAN[label] }, h("th", { scope: "row" }, label),
-      runs.map((run) => h("td", { title: label === BOUND && OF_BOUNDS[run.summary.lower_bound_name] },
-        of(run.summary, run)))));
+    const rows = ROWS.filter(([, key]) => runs.some(({ summary }) => has(summary, key)));
+    const lines = rows.map(([label, key, of]) => h("tr", { title: OF_PLAN[label] }, h("th", { scope: "row" }, label),
+      runs.map(({ summary }) => h("td", { title: label === BOUND && OF_BOUNDS[summary.lower_bound_name] },
+        has(summary, key) ? of(summary) : "–"))));
     const conflicts = runs.flatMap((run) => run.conflicts).slice(0, 5).map(({ step, text }) => h("li", {},
       h("button", { type: "button", class: "link", onclick: () => this.app.clock.seek(step - 1) }, text)));
     this.table.replaceChildren(...[
@@ -149,9 +153,10 @@ export class Results {
   }
 
   #spentIn({ playback: { curves, steps }, summary: { total_time: total } }, step) {
-    const now = Math.min(step, steps), spent = curves.spent[now], least = curves.least_total[now];
+    const now = Math.min(step, steps), spent = curves.spent[now], least = curves.least_total?.[now];
     if (now === steps) return `All ${number(total)} time units are used.`;
     const used = `${number(spent)} of ${number(total)} time units used`;
+    if (least === undefined) return `${used}.`; // in a run the world may change
     if (least === total) return `${used}; nobody waits or makes way any more.`;
     return `${used}. If nobody had to wait or make way from here on, it would be ${number(least)} in the end.`;
   }

@@ -17,6 +17,8 @@ const EXPORT_WORDS = {
   waypoints: "Waypoints in metres",
   summary: "Summary: the numbers of the plan",
   run: "Live run: all that happened, for trihex run --resume",
+  run_page: "Page of the live run: one HTML file that plays anywhere",
+  run_waypoints: "Waypoints of the live run in metres",
   run_movie: "Movie of the live run",
   run_picture: "Picture of the live run: what was seen when",
 };
@@ -34,10 +36,10 @@ export class Saving {
   // Ask what to save, and how.
   open() {
     const { exports } = this, { live, runs: [run], settings, dialog } = this.app;
-    const can = { draft: true, run: !!live?.last.step, plan: !!run };
+    const can = { draft: true, run: !!live?.last.step, plan: !!run?.plan };
     this.what.replaceChildren(...Object.entries(exports).map(([name, { needs }]) =>
       h("option", { value: name, disabled: !can[needs] }, EXPORT_WORDS[name])));
-    this.what.value = can.run ? "run" : run ? "plan" : "scenario";
+    this.what.value = can.run ? "run" : can.plan ? "plan" : "scenario";
     if (run && exports.plan.suffixes.includes(".npz")) {
       exports.plan.suffixes.sort((a, b) => (b === ".npz") - (a === ".npz"));
     }
@@ -66,7 +68,7 @@ export class Saving {
 
   #request(inFolder, overwrite) {
     const { runs: [run, beside], live, planning, request } = this.app, what = this.what.value;
-    const isOfPlan = run && (this.#needs === "plan" || what === "picture");
+    const isOfPlan = run?.plan && (this.#needs === "plan" || what === "picture");
     return {
       op: "save", what, name: this.name.value, in_folder: inFolder, overwrite,
       plan: isOfPlan ? run.plan : null, beside: what === "page" ? beside?.plan ?? null : null,

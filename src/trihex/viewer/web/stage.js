@@ -63,8 +63,16 @@ export class Stage {
     this.panes.forEach((pane, i) => {
       if (i && !runs[1]) return;
       runs[i]?.playback.seek(step);
+      this.#showStep(pane, runs[i]?.playback.worlds?.at(step));
       pane.draw(step >= (runs[i]?.playback.steps ?? 0) ? 0 : clock.at - step);
     });
+  }
+
+  // The world of a run as it was in the step that is shown.
+  #showStep(pane, world) {
+    if (!world || pane.world === world) return;
+    pane.take({ world, doc: world.doc, known: world.known });
+    pane.changed("base");
   }
 
   #settle() {
@@ -126,9 +134,10 @@ export class Stage {
     const { runs: [run], doc, fields, growth, live, field } = this.app, [pane] = this.panes;
     const distance = fields?.distance, values = growth ? growth.values : distance ?? null;
     pane.take({
-      values: field.isShown ? values : null,
+      values: field.isShown && !run?.playback.worlds ? values : null, // the field of a run changes with its world
       directions: growth ? null : fields?.directions ?? null,
       known: live?.known ?? null,
+      world: null,
     });
     this.#showPane(0, run, !!growth, field.farthest(distance ?? pane.values));
     if (run) pane.show(run.doc, run.playback);
@@ -149,7 +158,8 @@ export class Stage {
 
   #showBeside() {
     const { runs: [, run], field } = this.app, [, pane] = this.panes, { distance } = run.playback;
-    pane.take({ values: field.isShown ? distance : null });
+    const isStill = field.isShown && !run.playback.worlds;
+    pane.take({ values: isStill ? distance : null, known: null, world: null });
     this.#showPane(1, run, false, field.farthest(distance));
     pane.show(run.doc, run.playback);
   }

@@ -19,10 +19,12 @@ export const number = (value) =>
   (value === null || value === undefined ? "–" : Math.round(value).toLocaleString("en").replace(/,/g, " "));
 export const percent = (value) =>
   (value === null || value === undefined ? "–" : `${(100 * value).toFixed(value < 0.1 ? 2 : 1)} %`);
+export const secondsOf = (value) => (value < 100 ? `${value.toFixed(1)} s` : `${number(value)} s`);
 export const plural = (count, one) => `${number(count)} ${one}${count === 1 ? "" : "s"}`;
 export const title = (word) => word[0].toUpperCase() + word.slice(1);
 
-export function gapWords({ optimal, gap, lower_bound_name: bound }) {
+export function gapWords({ optimal, gap, lower_bound_name: bound, steps }) {
+  if (gap === undefined) return plural(steps, "step"); // of a run
   if (optimal || gap === 0) return "proven optimal";
   if (gap === null) return "gap unknown";
   return `${bound === "optimum" ? "" : "at most "}${percent(gap)} above the optimum`;
