@@ -19,6 +19,7 @@ TITLES = {
     "plans": "Plans: what robots do, step by step",
     "bounds": "Bounds: what no plan can beat",
     "planners": "Planners: who plans, by name",
+    "optimum": "Certificates: what proves that no plan is better",
     "judging": "Judge and report",
     "running": "A world that changes while robots move",
     "studies": "Studies and comparisons",

@@ -57,6 +57,7 @@ from .formats import (
     read_starts as read_starts,
     read_trajectories as read_trajectories,
     write_area as write_area,
+    write_certificate as write_certificate,
     write_events as write_events,
     write_plan as write_plan,
     write_report as write_report,
@@ -73,6 +74,10 @@ from .judging import (
     audit_plan as audit_plan,
     make_report as make_report,
     make_score as make_score,
+)
+from .optimum import (
+    Certificate as Certificate,
+    make_certificate as make_certificate,
 )
 from .pictures import (
     Picture as Picture,

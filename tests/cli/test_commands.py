@@ -438,3 +438,16 @@ def test_no_command_needs_numpy_before_it_works():
     code = "import sys, importlib; [importlib.import_module(f'trihex.cli.{name}') for name in sys.argv[1:]]"
     command = [sys.executable, "-c", f"{code}; print('numpy' in sys.modules)", *COMMANDS]
     assert subprocess.check_output(command, text=True) == "False\n"
+
+
+def test_a_certificate_is_written_beside_the_plan_and_can_be_checked(folder):
+    from examples.check_certificate import check
+
+    options = ["--robots", 5, "--seed", 1, "--planner", "optimal", "--destination-capacity", 1]
+    outputs = ["--out", "p.npz", "--certificate", "c.csv", "--write-scenario", "s.toml"]
+    done = run("plan", "world.txt", *options, *outputs)
+    assert "written: p.npz, c.csv, s.toml" in done.output
+    assert "5 robots, 1 destinations, hexagonal: " in check("world.txt", "p.npz", "c.csv")
+    Path("c.csv").unlink()
+    run("plan", "s.toml")
+    assert "no plan takes fewer" in check("world.txt", "p.npz", "c.csv")

@@ -34,6 +34,7 @@ class Outputs(NamedTuple):
     summary: Path | None
     picture: Path | None
     waypoints: Path | None
+    certificate: Path | None
     speed: float | None
     turn_time: float | None
     frame_id: str | None
@@ -51,6 +52,7 @@ class Outputs(NamedTuple):
 @click.option("--summary", type=PATH, metavar="FILE", help="The report as JSON; - writes it to the standard output.")
 @click.option("--picture", type=PATH, metavar="FILE", help="The plan drawn, as .png, .svg or .pdf.")
 @click.option("--waypoints", type=PATH, metavar="FILE", help="Where each robot is when, in metres and seconds.")
+@click.option("--certificate", type=PATH, metavar="FILE", help="Tolls that prove an optimal plan, as .csv.")
 @waypoint_options
 @map_options
 @click.option("--write-scenario", type=PATH, metavar="FILE", help="All that was planned, as a scenario .toml.")
@@ -87,6 +89,8 @@ def command(
     planner = planner or draft.planner or "fcost"
     planner_options = {**(draft.planner_options if planner == draft.planner else {}), **_parsed(planner_option)}
     check_planner_options(planner, planner_options)
+    if "certificate" in outputs:
+        _check_certifiable(draft, planner)
     scenario = complete(draft, *_uses(planner, outputs))
     if "waypoints" in outputs and scenario.area.frame is None:
         raise wrong_use("--waypoints are in metres: add --cell-size")
@@ -101,7 +105,7 @@ def command(
         write_scenario_file(scenario, write_scenario, planner=planner, planner_options=planner_options, outputs=kept)
     status = _told(report, outputs.get("summary"))
     if str(outputs.get("summary")) != "-":
-        files = (outputs.get(name) for name in ("plan", "summary", "picture", "waypoints"))
+        files = (outputs.get(name) for name in ("plan", "summary", "picture", "waypoints", "certificate"))
         tell_written(*files, *maps, write_scenario)
     return status
 
@@ -111,12 +115,24 @@ def _uses(planner: str, outputs: dict[str, Any]) -> list[str]:
     uses = [planner, "audit"] if planner == "optimal" else [planner, "audit", "bound"]
     if Path(outputs.get("plan", "")).suffix.lower() == ".csv":
         uses.append("table")
-    return [*uses, "picture"] if "picture" in outputs else uses
+    return [*uses, *(use for use in ("picture", "certificate") if use in outputs)]
+
+
+def _check_certifiable(draft: Any, planner: str) -> None:
+    """Raise unless a certificate can be had for what is planned, whatever robots there are."""
+    from dataclasses import replace
+
+    from trihex.optimum import check_certifiable
+
+    if planner != "optimal":
+        raise wrong_use(f"--certificate proves what planner 'optimal' plans, not {planner!r}")
+    if draft.destinations is not None:  # or it is told a little later that there is none
+        check_certifiable(replace(draft, robots=None, random_count=None).complete())
 
 
 def _check_outputs(outputs: dict[str, Any], write_scenario: Path | None) -> None:
     """Raise unless all that is to be written can be."""
-    from trihex.formats import PLAN_SUFFIXES, WAYPOINT_SUFFIXES
+    from trihex.formats import CERTIFICATE_SUFFIXES, PLAN_SUFFIXES, WAYPOINT_SUFFIXES
 
     unnamed = [value for value in outputs.values() if write_scenario and not str(value).isprintable()]
     if unnamed:
@@ -130,13 +146,14 @@ def _check_outputs(outputs: dict[str, Any], write_scenario: Path | None) -> None
         (outputs.get("summary"), (), "a summary"),
         (outputs.get("picture"), (), "a picture"),
         (outputs.get("waypoints"), WAYPOINT_SUFFIXES, "waypoints"),
+        (outputs.get("certificate"), CERTIFICATE_SUFFIXES, "a certificate"),
         (write_scenario, (".toml",), "a scenario"),
     )
 
 
 def _write(report: Any, outputs: dict[str, Any]) -> None:
     """Write and draw the plan."""
-    from trihex.formats import write_plan, write_waypoints
+    from trihex.formats import write_certificate, write_plan, write_waypoints
 
     if "plan" in outputs:
         with bar("writing", "parts") as progress:
@@ -148,6 +165,12 @@ def _write(report: Any, outputs: dict[str, Any]) -> None:
         picture_of_plan(report.plan, ground=ground, crop=ground is not None).save(outputs["picture"])
     if "waypoints" in outputs:
         write_waypoints(report.plan, outputs["waypoints"], **of_waypoints(dict(outputs)))
+    if "certificate" in outputs:
+        from trihex.optimum import make_certificate
+
+        with bar("proving", "steps") as progress:
+            certificate = make_certificate(report.plan, progress=progress)
+        write_certificate(certificate, outputs["certificate"])
 
 
 def _reported(

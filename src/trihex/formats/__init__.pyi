@@ -5,6 +5,10 @@ from .areas.options import (
     AreaOptions as AreaOptions,
     NoRoomError as NoRoomError,
 )
+from .certificate_csv import (
+    CERTIFICATE_SUFFIXES as CERTIFICATE_SUFFIXES,
+    write_certificate as write_certificate,
+)
 from .draft import (
     Draft as Draft,
     draft_of as draft_of,

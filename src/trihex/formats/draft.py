@@ -31,8 +31,8 @@ class Draft(Record):
     planner : str, optional
     planner_options : dict
     outputs : dict
-        What is to be written: paths of `plan`, `summary`, `picture` and `waypoints`; and of waypoints `speed`,
-        `turn_time` and `frame_id`, as `write_waypoints` takes them.
+        What is to be written: paths of `plan`, `summary`, `picture`, `waypoints` and `certificate`; and of waypoints
+        `speed`, `turn_time` and `frame_id`, as `write_waypoints` takes them.
     notes : tuple of str
         What was understood of a drawing, and what was not.
     """

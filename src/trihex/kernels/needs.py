@@ -32,6 +32,7 @@ KERNELS_OF: dict[str, tuple[str, ...]] = {
     "optimal": _OPTIMUM,  # and, where robots crowd, one of two more: `trihex.planners.uses_of`
     "optimal_crowd": (*_OPTIMUM, "optimum.prices", "optimum.raising", "optimum.serving"),
     "optimal_earliest": (*_OPTIMUM, *_FCOST, "optimum.earliest", "optimum.laid"),
+    "certificate": (*_FIELD, "areas.moves", "fields.steps", "optimum.laid", "optimum.tolls", "plans.replay"),
     "straight": (*_ASTAR, "planners.straight"),
     "audit": ("judging.audit", "plans.replay"),
     "timely audit": ("judging.timed", "plans.replay"),

@@ -1,3 +1,8 @@
+from .certificate import (
+    Certificate as Certificate,
+    check_certifiable as check_certifiable,
+    make_certificate as make_certificate,
+)
 from .earliest import (
     make_earliest_flow as make_earliest_flow,
 )

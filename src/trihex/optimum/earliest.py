@@ -61,9 +61,9 @@ def make_earliest_flow(
     layers = int(plan.arrival_step_of_robot[robots].max(initial=0)) + 1
     limit = limit_or_default(memory_limit)
     check_memory(network, cells, layers, layers * size * _BYTES_PER_NODE, limit)
-    graph = _make_graph(network)
+    graph = make_slot_graph(network)
     start = start_nodes(network, cells)
-    search = _make_search(network, _lay_plan(network, graph, plan, start, robots, layers))
+    search = _make_search(network, lay_words(network, graph, plan, start, robots, layers))
     status = BUDGET_SPENT
     while status != DONE:
         if status == LIST_FULL:
@@ -75,7 +75,8 @@ def make_earliest_flow(
     return Flow(network, start, search.words.astype(np.uint8), int(search.state[TOTAL]) * network.unit)
 
 
-def _make_graph(network: Network) -> Any:
+def make_slot_graph(network: Network) -> Any:
+    """Return the arcs of the network, for kernels."""
     from trihex.kernels.signatures import given
     from trihex.optimum.kernels.slots import SlotGraph
 
@@ -89,7 +90,7 @@ def _make_graph(network: Network) -> Any:
     )
 
 
-def _lay_plan(
+def lay_words(
     network: Network, graph: Any, plan: Plan, start: NDArray[np.int64], robots: NDArray[np.int64], layers: int
 ) -> NDArray[np.uint32]:
     """Return the words of all nodes as the plan leaves them."""

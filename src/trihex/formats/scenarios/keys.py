@@ -89,7 +89,7 @@ _Output = Annotated[str, AfterValidator(_beside)]
 
 
 # Those of [outputs] that are paths.
-OUTPUT_PATHS = ("plan", "summary", "picture", "waypoints")
+OUTPUT_PATHS = ("plan", "summary", "picture", "waypoints", "certificate")
 
 
 class OutputsTable(Table):
@@ -99,6 +99,7 @@ class OutputsTable(Table):
     summary: _Output | None = None
     picture: _Output | None = None
     waypoints: _Output | None = None
+    certificate: _Output | None = None
     speed: Annotated[Number, Field(gt=0)] | None = None
     turn_time: Annotated[Number, Field(ge=0)] | None = None
     frame_id: str | None = None
