@@ -199,3 +199,23 @@ def main_run(*command, status=0):
     result = CliRunner().invoke(main, [*map(str, command)])
     assert result.exit_code == status, result.output
     return result
+
+
+def test_an_exit_closes_at_a_second_by_the_speed_of_waypoints(tmp_path):
+    """Steps on hexagons of 0.5 m last 0.5 s at 1 m/s, 1 s at half of it: second 20 begins step 41 or 21."""
+    (tmp_path / "hall.wkt").write_text("POLYGON ((0 0, 30 0, 30 4, 0 4, 0 0))")
+    (tmp_path / "e.csv").write_text("second,event,metres\n20,open,1.5 2\n")
+    common = [str(tmp_path / "hall.wkt"), "--cell-size", "0.5", "--destination", "28,2m", "--robots", "3"]
+    for pace, step in (([], 41), (["--speed", "0.5"], 21)):
+        run(*common, "--events", tmp_path / "e.csv", "--out", tmp_path / "run.npz", *pace, "--max-steps", "60")
+        happened = th.read_run(tmp_path / "run.npz").occurrences
+        assert [one.event.step for one in happened] == [step]
+    run(*common, "--out", tmp_path / "part.npz", "--max-steps", "10")
+    run("--resume", tmp_path / "part.npz", "--events", tmp_path / "e.csv", "--out", tmp_path / "rest.npz")
+    assert [one.event.step for one in th.read_run(tmp_path / "rest.npz").occurrences] == [41]
+    slow = run("--resume", tmp_path / "part.npz", "--events", tmp_path / "e.csv", "--speed", "0.01", status=2)
+    assert "is past step 10, so what happens must come later, not step 2: destination opens" in slow.stderr
+    (tmp_path / "plain.txt").write_text("D..a\n")
+    (tmp_path / "e.csv").write_text("second,event,x,y\n20,open,1,0\n")
+    refused = run(tmp_path / "plain.txt", "--events", tmp_path / "e.csv", status=2)
+    assert "line 2: second needs an area in metres, where steps last; give step in place of 20" in refused.stderr

@@ -6,6 +6,7 @@ import pytest
 import trihex as th
 from tests.running.random_runs import random_events, random_trial
 from tests.strategies import random_scenario
+from trihex.areas import Frame
 from trihex.running import Event, resume_trial
 
 
@@ -103,7 +104,7 @@ def test_events_as_people_write_them(tmp_path):
     ("text", "why"),
     [
         ("step,event,z\n", "line 1: a column must be one of"),
-        ("step,x,y\n", "line 1: the header must have step and event"),
+        ("step,x,y\n", "line 1: the header must have step or second, and event, and each column once"),
         ("step,event\n1\n", "line 2: there must be 2 columns, not 1"),
         ("step,event,x,y\n1,barier,1,2\n", "line 2: event must be one of .* did you mean 'barrier'"),
         ("step,event,x,y\none,barrier,1,2\n", "line 2: step must be a whole number, not 'one'"),
@@ -112,6 +113,10 @@ def test_events_as_people_write_them(tmp_path):
         ("step,event,x,y\n,barrier,1,2\n", "line 2: step is missing"),
         ("step,event,zone\n1,close,\x7f\n", "line 2: event 'close' at step 1: name of a zone must be a line"),
         ("step,event,zone\n1,close," + 200_000 * "x", "is no CSV: field larger than field limit"),
+        ("step,second,event,x,y\n,,barrier,1,2\n", "line 2: step or second is missing"),
+        ("step,second,event,x,y\n1,1.0,barrier,1,2\n", "line 2: there must be only one of step and second"),
+        ("second,event,x,y\nsoon,barrier,1,2\n", "line 2: second must be a number, not 'soon'"),
+        ("second,event,x,y\n20,barrier,1,2\n", "line 2: second needs an area in metres, .* in place of 20"),
         ("step,event,x,y\n0,barrier,1,2\n", "line 2: step of an event must be a whole number from 1"),
     ],
 )
@@ -128,7 +133,9 @@ def test_wrong_csv_is_refused_with_its_line(tmp_path, text, why):
         ('[[event]]\nstep = 1\nevent = "jon"\n', "event.0.event: .*did you mean 'join'"),
         ("[[events]]\nstep = 1\n", "events: there is no such key; did you mean 'event'"),
         ('[[event]]\nstep = 1\nevent = "join"\ncell = [1]\n', "event.0.cell"),
-        ('[[event]]\nevent = "join"\ncell = [1, 2]\n', "event.0.step: is missing"),
+        ('[[event]]\nevent = "join"\ncell = [1, 2]\n', "event.0: must have one of step, second"),
+        ('[[event]]\nstep = 1\nsecond = 1\nevent = "join"\n', "event.0: must have only one of step, second"),
+        ('[[event]]\nsecond = 2.5\nevent = "join"\ncell = [1, 2]\n', "event.0: second needs an area in metres"),
         ('[[event]]\nstep = 1\nevent = "join"\n', "event.0: event 'join' at step 1 takes cell"),
     ],
 )
@@ -137,6 +144,30 @@ def test_wrong_toml_is_refused_with_its_key(tmp_path, text, why):
     path.write_text(text)
     with pytest.raises(th.FormatError, match=why):
         th.read_events(path)
+
+
+def test_seconds_are_the_first_step_that_begins_then_or_later(tmp_path):
+    area = th.Area("square", np.zeros((3, 3), dtype=bool), frame=Frame(0.3))  # a step lasts 0.3 * sqrt(2) seconds
+    lasts = 0.3 * 2**0.5
+    seconds = [0, 0.001, lasts, lasts + 0.001, 20]
+    steps = [1, 2, 2, 3, 49]  # step 48 begins at 19.94, step 49 at 20.36
+    rows = "".join(f"{second!r},close,1,1\n" for second in seconds)
+    (tmp_path / "e.csv").write_text(f"second,event,x,y\n{rows}")
+    assert [event.step for event in th.read_events(tmp_path / "e.csv", area)] == steps
+    (tmp_path / "e.csv").write_text("second,step,event,x,y\n20,,open,1,1\n,20,close,1,1\n")
+    assert [event.step for event in th.read_events(tmp_path / "e.csv", area, speed=0.5, turn_time=0.4)] == [18, 20]
+    (tmp_path / "e.toml").write_text('[[event]]\nsecond = 20\nevent = "close"\ncell = [1, 1]\n')
+    assert th.read_events(tmp_path / "e.toml", area) == (Event(49, "close", (1, 1)),)
+    edges = th.Area(th.Tessellation("square", "edge"), np.zeros((3, 3), dtype=bool), frame=Frame(0.3))
+    for number in range(1, 2000):  # the beginning of a step, however it is rounded, is that step
+        (tmp_path / "e.csv").write_text(f"second,event,x,y\n{number * 3 / 10!r},close,1,1\n")
+        assert th.read_events(tmp_path / "e.csv", edges)[0].step == number + 1
+    for second in (-1, "nan", 1e9):
+        (tmp_path / "e.csv").write_text(f"second,event,x,y\n{second},close,1,1\n")
+        with pytest.raises(th.FormatError, match="line 2: second must be from 0 to 424264, not"):
+            th.read_events(tmp_path / "e.csv", area)
+    with pytest.raises(th.TrihexError, match="area must be an Area"):
+        th.read_events(tmp_path / "e.csv", "area")
 
 
 def test_events_of_another_kind_of_file(tmp_path):

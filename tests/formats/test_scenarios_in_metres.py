@@ -39,6 +39,22 @@ def test_a_map_is_read_as_the_file_says(house):
     assert scenario.destination_capacity == 1
 
 
+def test_the_rule_asked_for_decides_on_the_least_cells(house):
+    """On hexagons robots of 0.1 m need 0.4 m if others follow at once, 0.2 / sqrt(3 / 4) = 0.231 m if none does."""
+    text = TOML.replace("cell_size = 0.5\n", "").replace("square", "hexagonal")
+    sizes = {}
+    for following in (None, "allow", "forbid"):
+        rule = "" if following is None else f"[rules]\nfollowing = {following!r}\n"
+        (house / "s.toml").write_text(text + rule)
+        scenario = read_scenario(house / "s.toml")
+        sizes[following] = scenario.area.frame.cell_size
+        assert scenario.following == (following or "allow")
+        own = {} if following is None else {"following": following}
+        area = read_area(house / "house.yaml", "hexagonal", robot_radius=0.1, unknown="free", **own)
+        assert area == scenario.area
+    assert sizes == {None: 0.4, "allow": 0.4, "forbid": 0.231}
+
+
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [

@@ -67,7 +67,7 @@ class Outputs(NamedTuple):
 @click.option("--budget", type=Seconds(), help="With --replan: what a plan may take. [default: any]")
 @click.option("--sense", type=Amount("cells", 100), help="Robots know only what one of them saw, so many cells around.")
 @click.option("--line-of-sight", is_flag=True, help="With --sense: barriers hide what lies behind them.")
-@click.option("--events", type=PATH, metavar="FILE", help="What happens at which step, as .csv or .toml.")
+@click.option("--events", type=PATH, metavar="FILE", help="What happens at which step or second, as .csv or .toml.")
 @click.option("--delays", type=Share(), help="The chance of each robot to be late in a step. [default: 0]")
 @click.option("--plan", type=PATH, metavar="PLAN", help="Follow this plan, .npz, in its order, in place of AREA.")
 @click.option("--resume", type=PATH, metavar="RUN", help="Go on where the run in this file ended, in place of AREA.")
@@ -90,7 +90,7 @@ def command(beginning: Beginning, way: Way, outputs: Outputs, maps: Maps, max_st
 
     Exit status 1: some robots are cut off, or an event was refused. The others arrive and all outputs are written.
     """
-    from trihex.formats import read_events, write_run
+    from trihex.formats import write_run
     from trihex.running import make_run_report
 
     pace = of_waypoints(options)
@@ -98,14 +98,13 @@ def command(beginning: Beginning, way: Way, outputs: Outputs, maps: Maps, max_st
     check_maps(maps)
     if way.line_of_sight and way.sense is None:
         raise wrong_use("--line-of-sight is about what robots see: add --sense")
-    events = read_events(way.events) if way.events else ()
     _check_beginning(beginning, way)
     if beginning.plan is not None:
         run, plan = _followed(beginning.plan, way.delays or 0.0, options["seed"] or 0, max_steps)
         told: dict[str, Any] = {"reference": plan}
         is_over = run.steps < max_steps
     else:
-        trial = _trial_of(beginning, way, events, options)
+        trial = _trial_of(beginning, way, options, pace)
         with bar("running", "robots") as progress:
             run = trial.run(most_steps=max_steps, progress=progress)
         told = {"seconds": trial.seconds}
@@ -152,12 +151,12 @@ def _check_beginning(beginning: Beginning, way: Way) -> None:
         raise wrong_use(f"--{'plan' if plan else 'resume'} says all itself, so {', '.join(told)} cannot be told")
 
 
-def _trial_of(beginning: Beginning, way: Way, events: Any, options: dict[str, Any]) -> Any:
+def _trial_of(beginning: Beginning, way: Way, options: dict[str, Any], pace: dict[str, Any]) -> Any:
     """Return the trial that begins in an area, or that goes on where a run ended."""
     from trihex.running import Sensor, Trial
 
     if beginning.resume is not None:
-        return _resumed(beginning.resume, way, events)
+        return _resumed(beginning.resume, way, pace)
     if beginning.area is None:
         raise wrong_use("there is no AREA: name one, or add --plan PLAN or --resume RUN")
     draft = read_described(beginning.area, options)
@@ -167,7 +166,7 @@ def _trial_of(beginning: Beginning, way: Way, events: Any, options: dict[str, An
         scenario,
         way.planner or draft.planner or "fcost",
         sensor=sensor,
-        events=events,
+        events=_events_of(way, scenario.area, pace),
         delay=way.delays or 0.0,
         seed=scenario.seed or 0,
         replan=way.replan,
@@ -175,13 +174,22 @@ def _trial_of(beginning: Beginning, way: Way, events: Any, options: dict[str, An
     )
 
 
-def _resumed(path: Path, way: Way, events: Any) -> Any:
+def _events_of(way: Way, area: Any, pace: dict[str, Any]) -> Any:
+    """Return what happens; how fast robots are tells which second is which step."""
+    from trihex.formats import read_events
+
+    timed = {name: value for name, value in pace.items() if name != "frame_id"}
+    return () if way.events is None else read_events(way.events, area, **timed)
+
+
+def _resumed(path: Path, way: Way, pace: dict[str, Any]) -> Any:
     from trihex.formats import read_run
     from trihex.running import resume_trial
 
     if way.delays is not None:
         raise wrong_use("--resume says all itself, so --delays cannot be told")
     run = read_run(path)
+    events = _events_of(way, run.scenario.area, pace)
     late = [str(event) for event in events if event.step <= run.steps]
     if late:
         raise wrong_use(f"{path} is past step {run.steps}, so what happens must come later, not {late[0]}")

@@ -18,7 +18,7 @@ from trihex.files import new_file
 from trihex.formats.areas.letters import draft_of_letters
 from trihex.formats.areas.options import AreaOptions
 from trihex.formats.draft import Draft
-from trihex.formats.scenarios.keys import OUTPUT_PATHS, AreaTable, ScenarioTable
+from trihex.formats.scenarios.keys import OUTPUT_PATHS, ScenarioTable
 from trihex.formats.schema import check_document
 from trihex.formats.starts.starts import read_starts
 from trihex.formats.text import Text
@@ -69,7 +69,7 @@ def _draft_of(
             mistakes.append(f"{key}: {text.removeprefix('cells: ')}")
             return None
 
-    draft = attempt("area", lambda: _area_draft(table.area, path, read_area_draft))
+    draft = attempt("area", lambda: _area_draft(table, path, read_area_draft))
     if draft is None:
         return None
     area, robots = draft.area, table.robots
@@ -109,11 +109,13 @@ def _outputs(table: ScenarioTable, path: Path) -> dict[str, Any]:
     return {name: path.parent / value if name in OUTPUT_PATHS else value for name, value in given.items()}
 
 
-def _area_draft(table: AreaTable, path: Path, read_area_draft: Callable[[Path, AreaOptions], Draft]) -> Draft:
+def _area_draft(whole: ScenarioTable, path: Path, read_area_draft: Callable[[Path, AreaOptions], Draft]) -> Draft:
+    table = whole.area
     tessellation = Tessellation(table.tessellation, table.neighbourhood, table.costs)
     names = (own.name for own in fields(AreaOptions) if own.name not in ("tessellation", "following"))
     options = {name: value for name in names if (value := getattr(table, name)) is not None}
     if table.path is not None:
+        options["following"] = whole.rules.following or "allow"  # the least cells for robots depend on it
         draft = read_area_draft(path.parent / table.path, AreaOptions(tessellation, **options))
     elif options:
         raise ScenarioError(f"{min(options)} tells how the file at area.path is read; rows take a table area.frame")
