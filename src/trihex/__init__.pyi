@@ -54,6 +54,7 @@ from .formats import (
     read_scenario as read_scenario,
     read_starts as read_starts,
     write_area as write_area,
+    write_dependencies as write_dependencies,
     write_events as write_events,
     write_plan as write_plan,
     write_report as write_report,
@@ -93,8 +94,10 @@ from .planners import (
 )
 from .plans import (
     Arrivals as Arrivals,
+    Dependencies as Dependencies,
     Plan as Plan,
     make_arrivals as make_arrivals,
+    make_dependencies as make_dependencies,
 )
 from .running import (
     Event as Event,

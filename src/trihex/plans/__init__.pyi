@@ -2,6 +2,10 @@ from .arrivals import (
     Arrivals as Arrivals,
     make_arrivals as make_arrivals,
 )
+from .dependencies import (
+    Dependencies as Dependencies,
+    make_dependencies as make_dependencies,
+)
 from .plan import (
     Plan as Plan,
     actions_of as actions_of,

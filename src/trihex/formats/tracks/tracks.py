@@ -71,6 +71,12 @@ class Tracks(Record):
         return slice(int(self.first_row[robot]), int(self.first_row[robot + 1]))
 
 
+def check_speed(speed: float) -> None:
+    """Raise FormatError unless a speed is above 0."""
+    if not isinstance(speed, Real) or not 0 < speed < float("inf"):
+        raise FormatError(f"speed must be above 0 metres in a second, not {speed!r}")
+
+
 def make_tracks(plan: Plan, speed: float = 1.0) -> Tracks:
     """Return the tracks of a plan whose area has a frame.
 
@@ -90,12 +96,11 @@ def make_tracks(plan: Plan, speed: float = 1.0) -> Tracks:
     FormatError
         If the speed is not above 0, or a robot jumps.
     """
-    if not isinstance(speed, Real) or not 0 < speed < float("inf"):
-        raise FormatError(f"speed must be above 0 metres in a second, not {speed!r}")
+    check_speed(speed)
     if plan.jumps.size:
         at = int(plan.jumps[0, 0])
-        robot, step = place_of_action(plan, at)
-        raise FormatError(f"robot {robot} jumps in {plan.scenario.step_word} {step}, as no robot can; check the plan")
+        robot, when = place_of_action(plan, at)
+        raise FormatError(f"robot {robot} jumps in {plan.scenario.step_word} {when}, as no robot can; check the plan")
     area = plan.scenario.area
     frame = area.metres
     first_row, step, cells = _rows_by_step(plan) if plan.scenario.clock == "steps" else _rows_by_move(plan)
@@ -107,7 +112,7 @@ def make_tracks(plan: Plan, speed: float = 1.0) -> Tracks:
         step,
         x,
         y,
-        _yaw(x, y, first_row, frame.yaw),
+        yaw_of_rows(x, y, first_row, frame.yaw),
         plan.arrived,
     )
 
@@ -142,7 +147,7 @@ def _rows_by_move(plan: Plan) -> tuple[NDArray[np.int64], NDArray[np.int64], NDA
     return first_row, step[kept], cells[kept]
 
 
-def _yaw(
+def yaw_of_rows(
     x: NDArray[np.float64], y: NDArray[np.float64], first_row: NDArray[np.int64], default: float
 ) -> NDArray[np.float64]:
     """Return the direction of the next move at each row, or of the last one; `default` for robots that never move."""
