@@ -58,6 +58,7 @@ from .formats import (
     read_trajectories as read_trajectories,
     write_area as write_area,
     write_certificate as write_certificate,
+    write_dependencies as write_dependencies,
     write_events as write_events,
     write_plan as write_plan,
     write_report as write_report,
@@ -110,11 +111,13 @@ from .planners import (
 )
 from .plans import (
     Arrivals as Arrivals,
+    Dependencies as Dependencies,
     Exits as Exits,
     Plan as Plan,
     Trajectories as Trajectories,
     make_arrivals as make_arrivals,
     make_density_map as make_density_map,
+    make_dependencies as make_dependencies,
     make_exits as make_exits,
     make_waiting_map as make_waiting_map,
 )

@@ -45,6 +45,10 @@ def read_bytes(path: str | os.PathLike[str], limit: int = MAX_BYTES) -> bytes:
 def suffix_of(path: str | os.PathLike[str], suffixes: Iterable[str], kind: str) -> str:
     """Return the suffix of `path` if it is one of `suffixes`, else raise FormatError naming the `kind` of file."""
     check_path(path)
+    suffixes, name = list(suffixes), Path(path).name.lower()
+    for suffix in suffixes:
+        if suffix.count(".") > 1 and name.endswith(suffix) and name != suffix:  # such as .dependencies.json
+            return suffix
     return check_choice(f"{path}: the suffix of {kind}", Path(path).suffix.lower(), suffixes, FormatError)
 
 

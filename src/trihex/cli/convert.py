@@ -13,6 +13,7 @@ from trihex.cli.options import (
     area_options,
     of_waypoints,
     read_described,
+    read_judged,
     read_played,
     rule_options,
     waypoint_options,
@@ -34,11 +35,12 @@ def command(source: Path, target: Path, area: Path | None, waypoints: bool, **op
     """Write what is in IN as the suffix of OUT says.
 
     Plans and runs: .csv, .npz and .parquet, .txt for mapf-visualizer; a plan in .csv or .parquet needs --area and the
-    options that it was made with. Waypoints of both: .csv (with --waypoints), .yaml, .json, .geojson, .sqlite. Areas:
-    .map, .txt, images and .toml. Scenarios: .toml and .txt. Starts: .csv. What a format cannot carry is refused.
+    options that it was made with. Waypoints of both: .csv (with --waypoints), .yaml, .json, .geojson, .sqlite. Who
+    waits for whom in a plan: .dependencies.json, .vda5050.json. Areas: .map, .txt, images and .toml. Scenarios: .toml and
+    .txt. Starts: .csv. What a format cannot carry is refused.
     """
     from trihex.files import read_bytes
-    from trihex.formats import FORMATS, PLAN_SUFFIXES, WAYPOINT_SUFFIXES, format_of, write_plan, write_waypoints
+    from trihex.formats import FORMATS, format_of
 
     way = of_waypoints(options)
     form = FORMATS[format_of(read_bytes(source), source)]
@@ -46,17 +48,7 @@ def command(source: Path, target: Path, area: Path | None, waypoints: bool, **op
         _convert_starts(source, target, area, options)
         return
     if form.holds == "plan":
-        if waypoints:
-            check_outputs((target, WAYPOINT_SUFFIXES, "waypoints"))
-        else:
-            check_outputs((target, dict.fromkeys((*PLAN_SUFFIXES, *WAYPOINT_SUFFIXES)), "a plan or waypoints"))
-        plan = read_played(source, area, options, add_area="--area AREA")
-        if waypoints or target.suffix.lower() not in PLAN_SUFFIXES:
-            write_waypoints(plan, target, **way)
-        else:
-            with bar("writing", "parts") as progress:
-                write_plan(plan, target, progress=progress)
-        tell_written(target)
+        _convert_plan(source, target, area, way, options, waypoints)
         return
     if area is not None or waypoints:
         raise wrong_use(f"--{'area' if area else 'waypoints'} is for plans; {source} holds none")
@@ -64,6 +56,38 @@ def command(source: Path, target: Path, area: Path | None, waypoints: bool, **op
         if options[name] not in (None, ()):
             raise wrong_use(f"--{name.replace('_', '-')} is for plans; {source} holds none")
     _convert_area(source, target, options)
+
+
+def _convert_plan(
+    source: Path, target: Path, area: Path | None, way: dict[str, Any], options: dict[str, Any], waypoints: bool
+) -> None:
+    from trihex.files import suffix_of
+    from trihex.formats import (
+        DEPENDENCY_SUFFIXES,
+        PLAN_SUFFIXES,
+        WAYPOINT_SUFFIXES,
+        write_dependencies,
+        write_plan,
+        write_waypoints,
+    )
+
+    kind = "waypoints" if waypoints else "a plan, waypoints or dependencies"
+    suffixes = WAYPOINT_SUFFIXES
+    if not waypoints:
+        suffixes = tuple(dict.fromkeys((*DEPENDENCY_SUFFIXES, *PLAN_SUFFIXES, *WAYPOINT_SUFFIXES)))
+    check_outputs((target, suffixes, kind))
+    suffix = suffix_of(target, suffixes, kind)
+    if suffix in DEPENDENCY_SUFFIXES:
+        judged = read_judged(source, area, options, add_area="--area AREA")
+        write_dependencies(judged, target, speed=way.get("speed", 1.0))
+    else:
+        plan = read_played(source, area, options, add_area="--area AREA")
+        if waypoints or suffix not in PLAN_SUFFIXES:
+            write_waypoints(plan, target, **way)
+        else:
+            with bar("writing", "parts") as progress:
+                write_plan(plan, target, progress=progress)
+    tell_written(target)
 
 
 def _convert_starts(source: Path, target: Path, area: Path | None, options: dict[str, Any]) -> None:

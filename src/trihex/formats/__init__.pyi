@@ -65,10 +65,12 @@ from .values_csv import (
 )
 from .writing import (
     AREA_SUFFIXES as AREA_SUFFIXES,
+    DEPENDENCY_SUFFIXES as DEPENDENCY_SUFFIXES,
     PLAN_SUFFIXES as PLAN_SUFFIXES,
     SCENARIO_SUFFIXES as SCENARIO_SUFFIXES,
     WAYPOINT_SUFFIXES as WAYPOINT_SUFFIXES,
     write_area as write_area,
+    write_dependencies as write_dependencies,
     write_plan as write_plan,
     write_scenario as write_scenario,
     write_waypoints as write_waypoints,

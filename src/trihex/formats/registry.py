@@ -160,6 +160,10 @@ WRITERS = {
         ".geojson": "tracks.geojson.write_geojson",
         ".sqlite": "tracks.jupedsim.write_jupedsim",
     },
+    "dependencies": {
+        ".dependencies.json": "orders.dependencies.write_dependencies_json",
+        ".vda5050.json": "orders.vda5050.write_vda5050",
+    },
 }
 
 

@@ -16,6 +16,7 @@ AREA_SUFFIXES = tuple(WRITERS["an area"])
 SCENARIO_SUFFIXES = tuple(WRITERS["a scenario"])
 PLAN_SUFFIXES = tuple(WRITERS["a plan"])
 WAYPOINT_SUFFIXES = tuple(WRITERS["waypoints"])
+DEPENDENCY_SUFFIXES = tuple(WRITERS["dependencies"])
 
 
 def write_area(area: Area, path: str | os.PathLike[str]) -> None:
@@ -100,3 +101,46 @@ def write_waypoints(
 
     write = writer_of("waypoints", path)
     write(make_tracks(plan, speed, turn_time=turn_time, frame_id=frame_id), path)
+
+
+def write_dependencies(plan: Plan, path: str | os.PathLike[str], *, speed: float = 1.0) -> None:
+    """Write the waypoints of all robots and who waits for whom, so that they can drive at any speed.
+
+    ``.dependencies.json`` is described in docs/formats.md; ``.vda5050.json`` holds order messages of VDA 5050.
+
+    Parameters
+    ----------
+    plan : Plan
+        A safe one; best one in whose scenario following is forbidden.
+    path : path
+    speed : float
+        Of the fastest robot, in metres in a second; in edge steps where the area has no frame.
+
+    Raises
+    ------
+    PlanError
+        If the plan is not safe.
+    AreaError
+        If the area has no frame, for VDA 5050.
+    FormatError
+        If the speed is not above 0, or for VDA 5050 if robots wait for each other in a ring.
+
+    Examples
+    --------
+    >>> import json
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> from trihex import Scenario, make_plan
+    >>> area = Area("hexagonal", [[0, 0, 0]])
+    >>> scenario = Scenario(area, destinations=(2, 0), robots=[(0, 0), (1, 0)], following="forbid")
+    >>> with TemporaryDirectory() as folder:
+    ...     path = Path(folder, "plan.dependencies.json")
+    ...     write_dependencies(make_plan(scenario), path)
+    ...     json.loads(path.read_text())["dependencies"]
+    [[0, 1, 1, 1]]
+    """
+    from trihex.formats.orders.course import make_course
+
+    check_type("plan", plan, Plan)
+    write = writer_of("dependencies", path)
+    write(make_course(plan, speed), path)

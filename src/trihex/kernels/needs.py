@@ -39,6 +39,7 @@ KERNELS_OF: dict[str, tuple[str, ...]] = {
     "bound": (*_BOUND, "bounds.steps", "bounds.units"),
     "execution": _EXECUTION,
     "trial": (*_EXECUTION, "running.sensing"),
+    "dependencies": ("areas.moves", "plans.implied", "plans.rows", "plans.replay"),
     "order": ("running.passing", "plans.replay"),
     "picture": ("pictures.raster", "plans.replay"),
     "timely picture": ("pictures.raster", "plans.ticks"),

@@ -2,6 +2,10 @@ from .arrivals import (
     Arrivals as Arrivals,
     make_arrivals as make_arrivals,
 )
+from .dependencies import (
+    Dependencies as Dependencies,
+    make_dependencies as make_dependencies,
+)
 from .exits import (
     Exits as Exits,
     exits_among as exits_among,

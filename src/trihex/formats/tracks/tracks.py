@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from numbers import Real
 
 import numpy as np
 from numpy.typing import NDArray
@@ -77,6 +78,12 @@ class Tracks(Record):
         return slice(int(self.first_row[robot]), int(self.first_row[robot + 1]))
 
 
+def check_speed(speed: float) -> None:
+    """Raise FormatError unless a speed is above 0."""
+    if not isinstance(speed, Real) or not 0 < speed < float("inf"):
+        raise FormatError(f"speed must be above 0 metres in a second, not {speed!r}")
+
+
 def make_tracks(motion: Motion, speed: float = 1.0, *, turn_time: float = 0.0, frame_id: str = "map") -> Tracks:
     """Return the tracks of a plan or a run whose area has a frame.
 
@@ -105,7 +112,7 @@ def make_tracks(motion: Motion, speed: float = 1.0, *, turn_time: float = 0.0, f
         raise FormatError(f"frame_id must be a name in one line, not {frame_id!r:.80}")
     first_row, step, cells = _rows(motion)
     x, y = area.cell_to_metres(cells)
-    yaw, seconds = _yaw(x, y, first_row, frame.yaw), np.asarray(step * duration)
+    yaw, seconds = yaw_of_rows(x, y, first_row, frame.yaw), np.asarray(step * duration)
     if turn_time:
         # All but the last row of a robot are there twice: before it turns, heading where it came from, and after.
         last = np.zeros(x.size, dtype=bool)
@@ -139,7 +146,7 @@ def _rows(motion: Motion) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray
     return first_row, step[kept], cells[kept]
 
 
-def _yaw(
+def yaw_of_rows(
     x: NDArray[np.float64], y: NDArray[np.float64], first_row: NDArray[np.int64], default: float
 ) -> NDArray[np.float64]:
     """Return the direction of the next move at each row, or of the last one; `default` for robots that never move."""
