@@ -25,8 +25,8 @@ def command(source: Path, target: Path, area: Path | None, waypoints: bool, spee
     """Write what is in IN as the suffix of OUT says.
 
     Plans: .csv, .npz and .parquet, .txt for mapf-visualizer; a plan in .csv or .parquet needs --area and the options
-    that it was made with. Waypoints of a plan: .csv (with --waypoints), .yaml, .json, .geojson, .sqlite. Areas: .map,
-    .txt, images and .toml. Scenarios: .toml and .txt. Starts: .csv. What a format cannot carry is refused.
+    that it was made with. Waypoints of a plan: .csv (with --waypoints), .yaml, .json, .geojson, .sqlite, .mcap. Areas:
+    .map, .txt, images and .toml. Scenarios: .toml and .txt. Starts: .csv. What a format cannot carry is refused.
     """
     from trihex.files import read_bytes
     from trihex.formats import FORMATS, PLAN_SUFFIXES, WAYPOINT_SUFFIXES, format_of, write_plan, write_waypoints

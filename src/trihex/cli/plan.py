@@ -41,7 +41,7 @@ class Outputs(NamedTuple):
 @robot_options
 @click.option("--planner", type=Name("trihex.planners", "PLANNERS"), help="Who plans. [default: fcost]")
 @click.option("--planner-option", metavar="NAME=VALUE", multiple=True, help="One of its options; may be repeated.")
-@click.option("--out", "plan", type=PATH, metavar="PLAN", help="The plan, as .csv or .npz.")
+@click.option("--out", "plan", type=PATH, metavar="PLAN", help="The plan, as .csv or .npz, or a recording as .mcap.")
 @click.option("--summary", type=PATH, metavar="FILE", help="The report as JSON; - writes it to the standard output.")
 @click.option("--picture", type=PATH, metavar="FILE", help="The plan drawn, as .png, .svg or .pdf.")
 @click.option("--waypoints", type=PATH, metavar="FILE", help="Where each robot is when, in metres and seconds.")
@@ -77,8 +77,11 @@ def command(
     planner_options = {**(draft.planner_options if planner == draft.planner else {}), **_parsed(planner_option)}
     check_planner_options(planner, planner_options)
     scenario = complete(draft, *_uses(planner, outputs))
-    if "waypoints" in outputs and scenario.area.frame is None:
-        raise wrong_use("--waypoints are in metres: add --cell-size")
+    if scenario.area.frame is None:
+        if "waypoints" in outputs:
+            raise wrong_use("--waypoints are in metres: add --cell-size")
+        if "plan" in outputs and _is_of_waypoints(outputs["plan"]):
+            raise wrong_use(f"--out {outputs['plan']} is in metres: add --cell-size")
     report = _reported(scenario, planner, planner_options, seconds)
     _write(report, outputs)
     if write_scenario:
@@ -112,7 +115,7 @@ def _check_outputs(outputs: dict[str, Any], write_scenario: Path | None) -> None
 
         check_outputs((outputs["picture"], PICTURE_SUFFIXES, "a picture"))
     check_outputs(
-        (outputs.get("plan"), PLAN_SUFFIXES, "a plan"),
+        (outputs.get("plan"), dict.fromkeys((*PLAN_SUFFIXES, *WAYPOINT_SUFFIXES)), "a plan"),
         (outputs.get("summary"), (), "a summary"),
         (outputs.get("picture"), (), "a picture"),
         (outputs.get("waypoints"), WAYPOINT_SUFFIXES, "waypoints"),
@@ -120,11 +123,20 @@ def _check_outputs(outputs: dict[str, Any], write_scenario: Path | None) -> None
     )
 
 
+def _is_of_waypoints(path: Path) -> bool:
+    """Tell whether a file tells of places in metres, as its suffix says, not of the actions of a plan."""
+    from trihex.formats import PLAN_SUFFIXES
+
+    return path.suffix.lower() not in PLAN_SUFFIXES
+
+
 def _write(report: Any, outputs: dict[str, Any]) -> None:
     """Write and draw the plan."""
     from trihex.formats import write_plan, write_waypoints
 
-    if "plan" in outputs:
+    if "plan" in outputs and _is_of_waypoints(outputs["plan"]):
+        write_waypoints(report.plan, outputs["plan"], speed=outputs.get("speed", 1.0))
+    elif "plan" in outputs:
         with bar("writing", "parts") as progress:
             write_plan(report.plan, outputs["plan"], progress=progress)
     if "picture" in outputs:

@@ -159,6 +159,7 @@ WRITERS = {
         ".json": "tracks.nav_path.write_nav_path_json",
         ".geojson": "tracks.geojson.write_geojson",
         ".sqlite": "tracks.jupedsim.write_jupedsim",
+        ".mcap": "tracks.mcap.write_mcap",
     },
 }
 

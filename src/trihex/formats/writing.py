@@ -60,7 +60,7 @@ def write_waypoints(plan: Plan, path: str | os.PathLike[str], *, speed: float = 
     """Write where each robot is at which second, in metres; no robot is faster than `speed` metres in a second.
 
     ``.csv`` has a row for each robot and step, ``.yaml`` and ``.json`` a nav_msgs/Path for each robot, ``.geojson`` a
-    LineString for each robot; ``.sqlite`` is for JuPedSim and PedPy.
+    LineString for each robot; ``.sqlite`` is for JuPedSim and PedPy; ``.mcap``, a recording of ROS, for Foxglove, RViz.
 
     Raises
     ------

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from numbers import Real
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Area
+from trihex.areas import Area, Scenario
 from trihex.errors import FormatError
 from trihex.kernels.codes import WAIT
 from trihex.plans import Plan, cells_of_rows, place_of_action, steps_of_actions
@@ -25,7 +26,8 @@ class Tracks(Record):
 
     Attributes
     ----------
-    area : Area
+    scenario : Scenario
+        What was planned.
     seconds_per_step : float
         Of a tick by the clock "costs".
     first_row : int64 array, shape (robots + 1,)
@@ -38,7 +40,7 @@ class Tracks(Record):
     arrived : bool array, shape (robots,)
     """
 
-    area: Area
+    scenario: Scenario
     seconds_per_step: float
     first_row: NDArray[np.int64]
     step: NDArray[np.int64]
@@ -50,6 +52,11 @@ class Tracks(Record):
     def __post_init__(self) -> None:
         for name in ("first_row", "step", "x", "y", "yaw", "arrived"):
             self._set(name, read_only(getattr(self, name)))
+
+    @property
+    def area(self) -> Area:
+        """The area, which has a frame."""
+        return self.scenario.area
 
     @property
     def robot_count(self) -> int:
@@ -69,6 +76,33 @@ class Tracks(Record):
     def rows_of(self, robot: int) -> slice:
         """Return the rows of a robot."""
         return slice(int(self.first_row[robot]), int(self.first_row[robot + 1]))
+
+    def frames(self) -> Frames:
+        """Return where all robots are, step (tick) by step; one on its way is between two centres, in a straight line.
+
+        A robot is in the frame of the step in which it arrives, its last.
+        """
+        after = np.append(self.step[1:], 0)[: self.step.size]
+        is_last = np.zeros(self.step.size, dtype=bool)
+        is_last[self.first_row[1:] - 1] = True
+        frames = np.where(is_last, 1, after - self.step)  # from each row up to the next of its robot
+        row = np.repeat(np.arange(frames.size), frames)
+        later = np.arange(row.size) - np.repeat(np.cumsum(frames) - frames, frames)
+        share, next_row = later / frames[row], np.where(is_last[row], row, row + 1)
+        x, y = (own[row] + share * (own[next_row] - own[row]) for own in (self.x, self.y))
+        step, robot = self.step[row] + later, self.robot[row]
+        order = np.lexsort((robot, step))
+        return Frames(step[order], robot[order], x[order], y[order], self.yaw[row][order])
+
+
+class Frames(NamedTuple):
+    """Where robots are in each step (tick), step by step and in each by number; x, y in metres, yaw in radians."""
+
+    step: NDArray[np.int64]
+    robot: NDArray[np.int64]
+    x: NDArray[np.float64]
+    y: NDArray[np.float64]
+    yaw: NDArray[np.float64]
 
 
 def make_tracks(plan: Plan, speed: float = 1.0) -> Tracks:
@@ -101,7 +135,7 @@ def make_tracks(plan: Plan, speed: float = 1.0) -> Tracks:
     first_row, step, cells = _rows_by_step(plan) if plan.scenario.clock == "steps" else _rows_by_move(plan)
     x, y = area.cell_to_metres(cells)
     return Tracks(
-        area,
+        plan.scenario,
         area.tessellation.longest_tick * frame.cell_size / speed,
         first_row,
         step,
