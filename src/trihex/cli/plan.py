@@ -59,8 +59,9 @@ def command(
     """Plan collision-free paths for all robots.
 
     AREA is a MovingAI .map, letters .txt (. free, B barrier, D destination, small letters robots), a map of Tiled
-    (.tmj, .tmx), an image, a place in metres (ROS map .yaml, GeoJSON, WKT, DXF; give --robot-radius, or --cell-size, too), or a scenario .toml, which
-    holds rules, destinations, robots and outputs as well; options come before what the file says.
+    (.tmj, .tmx), an image, a place in metres (ROS map .yaml, GeoJSON, WKT, DXF; give --robot-radius, or --cell-size,
+    too), or a scenario .toml, which holds rules, destinations, robots and outputs as well; options come before what the
+    file says.
 
     Exit status 1: some robots cannot arrive. The others are planned and all outputs are written.
     """
