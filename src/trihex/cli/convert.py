@@ -25,27 +25,19 @@ def command(source: Path, target: Path, area: Path | None, waypoints: bool, spee
     """Write what is in IN as the suffix of OUT says.
 
     Plans: .csv, .npz and .parquet, .txt for mapf-visualizer; a plan in .csv or .parquet needs --area and the options
-    that it was made with. Waypoints of a plan: .csv (with --waypoints), .yaml, .json, .geojson, .sqlite, .mcap. Areas:
-    .map, .txt, images and .toml. Scenarios: .toml and .txt. Starts: .csv. What a format cannot carry is refused.
+    that it was made with. Waypoints of a plan: .csv (with --waypoints), .yaml, .json, .geojson, .sqlite, .mcap. Layers
+    for Tiled: .tmj, which lie as those of --area if that is a map of Tiled. Areas: .map, .txt, images and .toml.
+    Scenarios: .toml and .txt. Starts: .csv. What a format cannot carry is refused.
     """
     from trihex.files import read_bytes
-    from trihex.formats import FORMATS, PLAN_SUFFIXES, WAYPOINT_SUFFIXES, format_of, write_plan, write_waypoints
+    from trihex.formats import FORMATS, format_of
 
     form = FORMATS[format_of(read_bytes(source), source)]
     if form.holds == "starts":
         _convert_starts(source, target, area, options)
         return
     if form.holds == "plan":
-        if waypoints:
-            check_outputs((target, WAYPOINT_SUFFIXES, "waypoints"))
-        else:
-            check_outputs((target, dict.fromkeys((*PLAN_SUFFIXES, *WAYPOINT_SUFFIXES)), "a plan or waypoints"))
-        plan = read_judged(source, area, options, add_area="--area AREA")
-        if waypoints or target.suffix.lower() not in PLAN_SUFFIXES:
-            write_waypoints(plan, target, speed=speed)
-        else:
-            with bar("writing", "parts") as progress:
-                write_plan(plan, target, progress=progress)
+        _convert_plan(source, target, area, waypoints, speed, options)
         return
     if area is not None or waypoints:
         raise wrong_use(f"--{'area' if area else 'waypoints'} is for plans; {source} holds none")
@@ -53,6 +45,34 @@ def command(source: Path, target: Path, area: Path | None, waypoints: bool, spee
         if options[name] not in (None, ()):
             raise wrong_use(f"--{name.replace('_', '-')} is for plans; {source} holds none")
     _convert_area(source, target, options)
+
+
+def _convert_plan(
+    source: Path, target: Path, area: Path | None, waypoints: bool, speed: float, options: dict[str, Any]
+) -> None:
+    from trihex.formats import (
+        LAYER_SUFFIXES,
+        PLAN_SUFFIXES,
+        WAYPOINT_SUFFIXES,
+        write_plan,
+        write_tiled,
+        write_waypoints,
+    )
+
+    if waypoints:
+        check_outputs((target, WAYPOINT_SUFFIXES, "waypoints"))
+    else:
+        suffixes = dict.fromkeys((*PLAN_SUFFIXES, *WAYPOINT_SUFFIXES, *LAYER_SUFFIXES))
+        check_outputs((target, suffixes, "a plan or waypoints"))
+    plan = read_judged(source, area, options, add_area="--area AREA")
+    suffix = target.suffix.lower()
+    if suffix in LAYER_SUFFIXES:
+        write_tiled(plan, target, like=area)
+    elif waypoints or suffix not in PLAN_SUFFIXES:
+        write_waypoints(plan, target, speed=speed)
+    else:
+        with bar("writing", "parts") as progress:
+            write_plan(plan, target, progress=progress)
 
 
 def _convert_starts(source: Path, target: Path, area: Path | None, options: dict[str, Any]) -> None:

@@ -41,7 +41,7 @@ class Outputs(NamedTuple):
 @robot_options
 @click.option("--planner", type=Name("trihex.planners", "PLANNERS"), help="Who plans. [default: fcost]")
 @click.option("--planner-option", metavar="NAME=VALUE", multiple=True, help="One of its options; may be repeated.")
-@click.option("--out", "plan", type=PATH, metavar="PLAN", help="The plan, as .csv or .npz, or a recording as .mcap.")
+@click.option("--out", "plan", type=PATH, metavar="PLAN", help="The plan: .csv, .npz, .mcap, .tmj for Tiled.")
 @click.option("--summary", type=PATH, metavar="FILE", help="The report as JSON; - writes it to the standard output.")
 @click.option("--picture", type=PATH, metavar="FILE", help="The plan drawn, as .png, .svg or .pdf.")
 @click.option("--waypoints", type=PATH, metavar="FILE", help="Where each robot is when, in metres and seconds.")
@@ -84,7 +84,7 @@ def command(
         if "plan" in outputs and _is_of_waypoints(outputs["plan"]):
             raise wrong_use(f"--out {outputs['plan']} is in metres: add --cell-size")
     report = _reported(scenario, planner, planner_options, seconds)
-    _write(report, outputs)
+    _write(report, outputs, area)
     if write_scenario:
         from trihex.formats import write_scenario as write_scenario_file
 
@@ -106,7 +106,7 @@ def _uses(planner: str, outputs: dict[str, Any]) -> list[str]:
 
 def _check_outputs(outputs: dict[str, Any], write_scenario: Path | None) -> None:
     """Raise unless all that is to be written can be."""
-    from trihex.formats import PLAN_SUFFIXES, WAYPOINT_SUFFIXES
+    from trihex.formats import LAYER_SUFFIXES, PLAN_SUFFIXES, WAYPOINT_SUFFIXES
 
     unnamed = [path for path in outputs.values() if write_scenario and not str(path).isprintable()]
     if unnamed:
@@ -116,7 +116,7 @@ def _check_outputs(outputs: dict[str, Any], write_scenario: Path | None) -> None
 
         check_outputs((outputs["picture"], PICTURE_SUFFIXES, "a picture"))
     check_outputs(
-        (outputs.get("plan"), dict.fromkeys((*PLAN_SUFFIXES, *WAYPOINT_SUFFIXES)), "a plan"),
+        (outputs.get("plan"), dict.fromkeys((*PLAN_SUFFIXES, *WAYPOINT_SUFFIXES, *LAYER_SUFFIXES)), "a plan"),
         (outputs.get("summary"), (), "a summary"),
         (outputs.get("picture"), (), "a picture"),
         (outputs.get("waypoints"), WAYPOINT_SUFFIXES, "waypoints"),
@@ -126,17 +126,19 @@ def _check_outputs(outputs: dict[str, Any], write_scenario: Path | None) -> None
 
 def _is_of_waypoints(path: Path) -> bool:
     """Tell whether a file tells of places in metres, as its suffix says, not of the actions of a plan."""
-    from trihex.formats import PLAN_SUFFIXES
+    from trihex.formats import PLAN_SUFFIXES, WAYPOINT_SUFFIXES
 
-    return path.suffix.lower() not in PLAN_SUFFIXES
+    return path.suffix.lower() in set(WAYPOINT_SUFFIXES) - set(PLAN_SUFFIXES)
 
 
-def _write(report: Any, outputs: dict[str, Any]) -> None:
+def _write(report: Any, outputs: dict[str, Any], area: Path) -> None:
     """Write and draw the plan."""
-    from trihex.formats import write_plan, write_waypoints
+    from trihex.formats import LAYER_SUFFIXES, write_plan, write_tiled, write_waypoints
 
     if "plan" in outputs and _is_of_waypoints(outputs["plan"]):
         write_waypoints(report.plan, outputs["plan"], speed=outputs.get("speed", 1.0))
+    elif "plan" in outputs and outputs["plan"].suffix.lower() in LAYER_SUFFIXES:
+        write_tiled(report.plan, outputs["plan"], like=area)
     elif "plan" in outputs:
         with bar("writing", "parts") as progress:
             write_plan(report.plan, outputs["plan"], progress=progress)

@@ -170,6 +170,9 @@ WRITERS = {
         ".sqlite": "tracks.jupedsim.write_jupedsim",
         ".mcap": "tracks.mcap.write_mcap",
     },
+    "layers": {
+        ".tmj": "tiled_layers.write_tiled",
+    },
 }
 
 

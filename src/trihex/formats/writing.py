@@ -15,6 +15,7 @@ AREA_SUFFIXES = tuple(WRITERS["an area"])
 SCENARIO_SUFFIXES = tuple(WRITERS["a scenario"])
 PLAN_SUFFIXES = tuple(WRITERS["a plan"])
 WAYPOINT_SUFFIXES = tuple(WRITERS["waypoints"])
+LAYER_SUFFIXES = tuple(WRITERS["layers"])
 
 
 def write_area(area: Area, path: str | os.PathLike[str]) -> None:
