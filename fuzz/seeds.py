@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+from base64 import b64encode
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from zlib import compress
 
 import ezdxf
 import numpy as np
@@ -93,6 +95,31 @@ path = "yard.map"
 [limits]
 seconds = 5
 """
+_BARRIER = {"name": "barrier", "type": "bool", "value": True}
+LEVEL = {
+    "height": 2, "infinite": False,
+    "layers": [
+        {"type": "tilelayer", "name": "ground", "width": 3, "height": 2, "data": [1, 2, 1, 1, 1, 2147483650]},
+        {"type": "group", "layers": [
+            {"type": "tilelayer", "name": "destinations", "data": "AAAAAAAAAAABAAAAAAAAAAAAAAAAAAAA"}
+        ]},
+    ],
+    "orientation": "hexagonal", "hexsidelength": 16, "staggeraxis": "y", "staggerindex": "even",
+    "tilesets": [{"firstgid": 1, "tiles": [{"id": 1, "properties": [_BARRIER]}]}],
+    "tilewidth": 32, "tileheight": 28, "width": 3,
+}  # fmt: skip
+TMX = """<?xml version="1.0" encoding="UTF-8"?>
+<map orientation="hexagonal" width="3" height="2" infinite="0" staggeraxis="x" staggerindex="even">
+ <tileset firstgid="1">
+  <tile id="1"><properties><property name="solid" type="bool" value="true"/></properties></tile>
+ </tileset>
+ <layer name="ground" width="3" height="2"><data encoding="csv">
+1,2,1,
+1,1,2
+</data></layer>
+ <layer name="robots"><data encoding="base64" compression="zlib">PACKED</data></layer>
+</map>
+"""
 PLACE_TOML = """destinations_in_metres = [[0.98, 5.75]]
 [area]
 path = "house.yaml"
@@ -143,6 +170,8 @@ def make_seeds() -> dict[str, bytes]:
         "style.yaml": STYLE.encode(),
         "parts.geojson": json.dumps(PARTS).encode(),
         "srid.wkt": b"SRID=25832;" + WKT.encode(),
+        "level.tmj": json.dumps(LEVEL).encode(),
+        "level.tmx": TMX.replace("PACKED", b64encode(compress(bytes([1, *[0] * 23]))).decode()).encode(),
         "world.toml": TOML.encode(),
         "place.toml": PLACE_TOML.encode(),
         "starts.csv": b"x,y\n0,0\n2,2\n5,1\n",

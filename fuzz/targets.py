@@ -156,6 +156,8 @@ TARGETS: dict[str, Callable[[Path], None]] = {
     "world.toml": read_any,
     "yard.toml": read_any,
     "yard.map": read_any,
+    "level.tmj": read_any,
+    "level.tmx": read_any,
     "letters.txt": read_any,
     "walls.txt": read_any,
     "starts.csv": read_some_starts,

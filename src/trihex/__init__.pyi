@@ -65,6 +65,7 @@ from .formats import (
     write_run as write_run,
     write_scenario as write_scenario,
     write_starts as write_starts,
+    write_tiled as write_tiled,
     write_waypoints as write_waypoints,
 )
 from .judging import (

@@ -97,6 +97,7 @@ CASES = {
     "a long name": ('[area]\nname = "' + "x" * 2000 + '"\nrows = ["D."]\n', ["plan", "bad", "--robots", "1"], "bad: area: name must be text of at most 1000 characters, not 'xxxx*"),
     "a wrong letter among walls": ("#####\n#X.D#\n#####\n", ["plan", "bad"], "bad: row 1, column 1: unknown letter 'X'; known are . (free), B or # (barrier), *"),
     "waypoints in cells": (None, [*ONE, "--waypoints", "w.csv"], "--waypoints are in metres: add --cell-size"),
+    "recording in cells": (None, [*ONE, "--out", "p.mcap"], "--out p.mcap is in metres: add --cell-size"),
     "plan of another area": (None, ["check", "plan.csv", "closed.map", "--destination", "0,0"], "plan.csv: line 3: cell (3, 0) lies outside the area: x is 0..2, y is 0..0"),
     "plan of another cost": (None, ["check", "plan.csv", "world.map", *AIM, "--costs", "euclidean"], "plan.csv: line 3: time must rise by 1000 for 'SE', not by 10; the plan was made with other costs or another waiting cost"),
     "npz of another tessellation": (None, ["check", "plan.npz", "--tessellation", "square"], "plan.npz is a plan for tessellation hexagonal, which cannot be read as square"),

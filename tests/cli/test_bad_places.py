@@ -108,7 +108,7 @@ CASES = {
     "scen of another map": ("version 1\n0\ta.map\t9\t9\t0\t0\t1\t1\t2\n", ["plan", "world.txt", "--planner", "greedy", "--starts", "bad"], "bad: line 2: is for an area of 9 x 9 cells, not of 3 x 2"),
     "scen with a column too few": ("version 1\n0\ta.map\t3\t2\t0\t0\t1\t1\n", ["plan", "world.txt", "--planner", "greedy", "--starts", "bad"], "bad: line 2: must have 9 columns *, not 8"),
     # outputs
-    "waypoints of no kind": (None, [*PLAN, "--waypoints", "w.xlsx"], "w.xlsx: the suffix of waypoints must be one of .csv, .yaml, .json, .geojson, .sqlite, not '.xlsx'"),
+    "waypoints of no kind": (None, [*PLAN, "--waypoints", "w.xlsx"], "w.xlsx: the suffix of waypoints must be one of .csv, .yaml, .json, .geojson, .sqlite, .mcap, not '.xlsx'"),
     "speed below 0": (None, [*PLAN, "--waypoints", "w.csv", "--speed", "-1"], "--speed must be a number above 0, not '-1'"),
     "hexagons for mapf-visualizer": (None, ["convert", "plan.npz", "p.txt"], "p.txt: mapf-visualizer draws squares only; the plan is hexagonal"),
     "metres in a scenario of letters": (None, ["convert", "house.geojson", "p.txt"], "house.geojson: a place drawn by polygons is measured in metres"),

@@ -53,7 +53,7 @@ def test_a_plan_in_metres_becomes_every_format_of_motion(house, tmp_path):
         run("plan", "house.yaml", *SIZE, *PLACES, "--robots", 5, "--out", "p.npz", "--waypoints", "w.csv").exit_code
         == 0
     )
-    for name in ("w.json", "w.yaml", "w.geojson", "w.sqlite", "p.csv", "p.parquet"):
+    for name in ("w.json", "w.yaml", "w.geojson", "w.sqlite", "w.mcap", "p.csv", "p.parquet"):
         done = run("convert", "p.npz", name)
         assert done.exit_code == 0, done.output
         assert (tmp_path / name).stat().st_size > 0
@@ -63,6 +63,15 @@ def test_a_plan_in_metres_becomes_every_format_of_motion(house, tmp_path):
     assert run("check", "p.parquet", "house.yaml", *SIZE, *PLACES).exit_code == 0
     refused = run("convert", "p.npz", "p.txt")
     assert refused.exit_code == 2 and "mapf-visualizer draws squares only" in refused.output
+
+
+def test_a_recording_is_the_same_whoever_writes_it(house, tmp_path):
+    words = ["--robots", 5, "--speed", "0.5", "--out"]
+    assert run("plan", "house.yaml", *SIZE, *PLACES, *words, "p.npz").exit_code == 0
+    done = run("plan", "house.yaml", *SIZE, *PLACES, *words, "one.mcap")
+    assert done.exit_code == 0 and "written: one.mcap" in done.output
+    assert run("convert", "p.npz", "other.mcap", "--speed", "0.5").exit_code == 0
+    assert (tmp_path / "one.mcap").read_bytes() == (tmp_path / "other.mcap").read_bytes()
 
 
 def test_starts_in_metres_and_from_scen(house, tmp_path):

@@ -35,9 +35,10 @@ def command(source: Path, target: Path, area: Path | None, waypoints: bool, **op
     """Write what is in IN as the suffix of OUT says.
 
     Plans and runs: .csv, .npz and .parquet, .txt for mapf-visualizer; a plan in .csv or .parquet needs --area and the
-    options that it was made with. Waypoints of both: .csv (with --waypoints), .yaml, .json, .geojson, .sqlite. Who
-    waits for whom in a plan: .dependencies.json, .vda5050.json. Areas: .map, .txt, images and .toml. Scenarios: .toml and
-    .txt. Starts: .csv. What a format cannot carry is refused.
+    options that it was made with. Waypoints of both: .csv (with --waypoints), .yaml, .json, .geojson, .sqlite, .mcap.
+    Of plans: who waits for whom, .dependencies.json, .vda5050.json; layers for Tiled, .tmj, which lie as those of
+    --area if that is a map of Tiled. Areas: .map, .txt, images and .toml. Scenarios: .toml and .txt. Starts: .csv. What
+    a format cannot carry is refused.
     """
     from trihex.files import read_bytes
     from trihex.formats import FORMATS, format_of
@@ -64,22 +65,28 @@ def _convert_plan(
     from trihex.files import suffix_of
     from trihex.formats import (
         DEPENDENCY_SUFFIXES,
+        LAYER_SUFFIXES,
         PLAN_SUFFIXES,
         WAYPOINT_SUFFIXES,
         write_dependencies,
         write_plan,
+        write_tiled,
         write_waypoints,
     )
 
-    kind = "waypoints" if waypoints else "a plan, waypoints or dependencies"
+    kind = "waypoints" if waypoints else "a plan, waypoints, dependencies or layers"
     suffixes = WAYPOINT_SUFFIXES
     if not waypoints:
-        suffixes = tuple(dict.fromkeys((*DEPENDENCY_SUFFIXES, *PLAN_SUFFIXES, *WAYPOINT_SUFFIXES)))
+        every = (*DEPENDENCY_SUFFIXES, *PLAN_SUFFIXES, *WAYPOINT_SUFFIXES, *LAYER_SUFFIXES)
+        suffixes = tuple(dict.fromkeys(every))
     check_outputs((target, suffixes, kind))
     suffix = suffix_of(target, suffixes, kind)
-    if suffix in DEPENDENCY_SUFFIXES:
+    if suffix in DEPENDENCY_SUFFIXES or suffix in LAYER_SUFFIXES:
         judged = read_judged(source, area, options, add_area="--area AREA")
-        write_dependencies(judged, target, speed=way.get("speed", 1.0))
+        if suffix in LAYER_SUFFIXES:
+            write_tiled(judged, target, like=area)
+        else:
+            write_dependencies(judged, target, speed=way.get("speed", 1.0))
     else:
         plan = read_played(source, area, options, add_area="--area AREA")
         if waypoints or suffix not in PLAN_SUFFIXES:

@@ -28,12 +28,12 @@ class Outputs(NamedTuple):
 @click.argument("area", type=PATH)
 @area_options
 @rule_options
-@click.option("--out", type=PATH, metavar="FILE", help="The N-scheme as .npy, int32 [y, x].")
+@click.option("--out", type=PATH, metavar="FILE", help="The N-scheme as .npy, int32 [y, x], or .tmj for Tiled.")
 @click.option(
     "--directions",
     type=PATH,
     metavar="FILE",
-    help="The D-scheme as .npy, uint16 [y, x].",
+    help="The D-scheme as .npy, uint16 [y, x], or .tmj for Tiled.",
 )
 @click.option("--picture", type=PATH, metavar="FILE", help="The N-scheme drawn, as .png, .svg or .pdf.")
 @click.option("--directions-picture", type=PATH, metavar="FILE", help="The D-scheme drawn, as .png, .svg or .pdf.")
@@ -66,7 +66,7 @@ def command(area: Path, outputs: Outputs, tiling: Tiling, **options: Any) -> Non
     directed = ("d_scheme",) if outputs.directions or outputs.directions_picture else ("n_scheme",)
     scenario = complete(read_described(area, options), *directed, *drawn, needs_robots=False)
     n_scheme = make_n_scheme(scenario)
-    _write(n_scheme, outputs)
+    _write(n_scheme, outputs, area)
     _tell(n_scheme)
     tell_written(outputs.out, outputs.directions, outputs.picture, outputs.directions_picture)
     if outputs.generations:
@@ -74,33 +74,43 @@ def command(area: Path, outputs: Outputs, tiling: Tiling, **options: Any) -> Non
 
 
 def _check_outputs(outputs: Outputs) -> None:
+    from trihex.formats import LAYER_SUFFIXES
     from trihex.pictures import PICTURE_SUFFIXES
 
     check_outputs(
-        (outputs.out, (".npy",), "an N-scheme"),
-        (outputs.directions, (".npy",), "a D-scheme"),
+        (outputs.out, (".npy", *LAYER_SUFFIXES), "an N-scheme"),
+        (outputs.directions, (".npy", *LAYER_SUFFIXES), "a D-scheme"),
         (outputs.picture, PICTURE_SUFFIXES, "a picture"),
         (outputs.directions_picture, PICTURE_SUFFIXES, "a picture"),
     )
 
 
-def _write(n_scheme: Any, outputs: Outputs) -> None:
+def _write(n_scheme: Any, outputs: Outputs, area: Path) -> None:
     """Write and draw the N-scheme and the D-scheme."""
     from trihex.fields import make_d_scheme
-    from trihex.formats import write_field
     from trihex.pictures import picture_of_d_scheme, picture_of_n_scheme
 
     if outputs.out:
-        write_field(n_scheme.distance, outputs.out)
+        _write_field(n_scheme, n_scheme.distance, outputs.out, area)
     if outputs.picture:
         picture_of_n_scheme(n_scheme).save(outputs.picture)
     if not (outputs.directions or outputs.directions_picture):
         return
     d_scheme = make_d_scheme(n_scheme)
     if outputs.directions:
-        write_field(d_scheme.directions, outputs.directions)
+        _write_field(d_scheme, d_scheme.directions, outputs.directions, area)
     if outputs.directions_picture:
         picture_of_d_scheme(d_scheme).save(outputs.directions_picture)
+
+
+def _write_field(scheme: Any, values: Any, path: Path, area: Path) -> None:
+    """Write an array, or layers for Tiled that lie as in the map from which the area was read."""
+    from trihex.formats import LAYER_SUFFIXES, write_field, write_tiled
+
+    if path.suffix.lower() in LAYER_SUFFIXES:
+        write_tiled(scheme, path, like=area)
+    else:
+        write_field(values, path)
 
 
 def _tell(n_scheme: Any) -> None:

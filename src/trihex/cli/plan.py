@@ -48,7 +48,7 @@ class Outputs(NamedTuple):
 @click.option("--planner", type=Name("trihex.planners", "PLANNERS"), help="Who plans. [default: fcost]")
 @click.option("--planner-option", metavar="NAME=VALUE", multiple=True, help="One of its options; may be repeated.")
 @click.option("--straight", is_flag=True, help="Then let robots turn less, with equal arrivals and at no more cost.")
-@click.option("--out", "plan", type=PATH, metavar="PLAN", help="The plan, as .csv or .npz.")
+@click.option("--out", "plan", type=PATH, metavar="PLAN", help="The plan: .csv, .npz, .mcap, .tmj for Tiled.")
 @click.option("--summary", type=PATH, metavar="FILE", help="The report as JSON; - writes it to the standard output.")
 @click.option("--picture", type=PATH, metavar="FILE", help="The plan drawn, as .png, .svg or .pdf.")
 @click.option("--waypoints", type=PATH, metavar="FILE", help="Where each robot is when, in metres and seconds.")
@@ -70,9 +70,10 @@ def command(
 ) -> int:
     """Plan collision-free paths for all robots.
 
-    AREA is a MovingAI .map, letters .txt (. free, B barrier, D destination, small letters robots), an image, a place in
-    metres (ROS map .yaml, GeoJSON, WKT, DXF; give --robot-radius, or --cell-size, too), or a scenario .toml, which
-    holds rules, destinations, robots and outputs as well; options come before what the file says.
+    AREA is a MovingAI .map, letters .txt (. free, B barrier, D destination, small letters robots), a map of Tiled
+    (.tmj, .tmx), an image, a place in metres (ROS map .yaml, GeoJSON, WKT, DXF; give --robot-radius, or --cell-size,
+    too), or a scenario .toml, which holds rules, destinations, robots and outputs as well; options come before what the
+    file says.
 
     Exit status 1: some robots cannot arrive. The others are planned and all outputs are written.
     """
@@ -92,11 +93,14 @@ def command(
     if "certificate" in outputs:
         _check_certifiable(draft, planner)
     scenario = complete(draft, *_uses(planner, outputs))
-    if "waypoints" in outputs and scenario.area.frame is None:
-        raise wrong_use("--waypoints are in metres: add --cell-size")
+    if scenario.area.frame is None:
+        if "waypoints" in outputs:
+            raise wrong_use("--waypoints are in metres: add --cell-size")
+        if "plan" in outputs and _is_of_waypoints(outputs["plan"]):
+            raise wrong_use(f"--out {outputs['plan']} is in metres: add --cell-size")
     pace: dict[str, float] = {name: outputs[name] for name in ("speed", "turn_time") if name in outputs}
     report = _reported(scenario, planner, planner_options, seconds, pace, straight=straight)
-    _write(report, outputs)
+    _write(report, outputs, area)
     write_maps(report.plan, maps, pace)
     if write_scenario:
         from trihex.formats import write_scenario as write_scenario_file
@@ -132,7 +136,7 @@ def _check_certifiable(draft: Any, planner: str) -> None:
 
 def _check_outputs(outputs: dict[str, Any], write_scenario: Path | None) -> None:
     """Raise unless all that is to be written can be."""
-    from trihex.formats import CERTIFICATE_SUFFIXES, PLAN_SUFFIXES, WAYPOINT_SUFFIXES
+    from trihex.formats import CERTIFICATE_SUFFIXES, LAYER_SUFFIXES, PLAN_SUFFIXES, WAYPOINT_SUFFIXES
 
     unnamed = [value for value in outputs.values() if write_scenario and not str(value).isprintable()]
     if unnamed:
@@ -142,7 +146,7 @@ def _check_outputs(outputs: dict[str, Any], write_scenario: Path | None) -> None
 
         check_outputs((outputs["picture"], PICTURE_SUFFIXES, "a picture"))
     check_outputs(
-        (outputs.get("plan"), PLAN_SUFFIXES, "a plan"),
+        (outputs.get("plan"), dict.fromkeys((*PLAN_SUFFIXES, *WAYPOINT_SUFFIXES, *LAYER_SUFFIXES)), "a plan"),
         (outputs.get("summary"), (), "a summary"),
         (outputs.get("picture"), (), "a picture"),
         (outputs.get("waypoints"), WAYPOINT_SUFFIXES, "waypoints"),
@@ -151,11 +155,22 @@ def _check_outputs(outputs: dict[str, Any], write_scenario: Path | None) -> None
     )
 
 
-def _write(report: Any, outputs: dict[str, Any]) -> None:
-    """Write and draw the plan."""
-    from trihex.formats import write_certificate, write_plan, write_waypoints
+def _is_of_waypoints(path: Path) -> bool:
+    """Tell whether a file tells of places in metres, as its suffix says, not of the actions of a plan."""
+    from trihex.formats import PLAN_SUFFIXES, WAYPOINT_SUFFIXES
 
-    if "plan" in outputs:
+    return path.suffix.lower() in set(WAYPOINT_SUFFIXES) - set(PLAN_SUFFIXES)
+
+
+def _write(report: Any, outputs: dict[str, Any], area: Path) -> None:
+    """Write and draw the plan."""
+    from trihex.formats import LAYER_SUFFIXES, write_certificate, write_plan, write_tiled, write_waypoints
+
+    if "plan" in outputs and _is_of_waypoints(outputs["plan"]):
+        write_waypoints(report.plan, outputs["plan"], **of_waypoints(dict(outputs)))
+    elif "plan" in outputs and outputs["plan"].suffix.lower() in LAYER_SUFFIXES:
+        write_tiled(report.plan, outputs["plan"], like=area)
+    elif "plan" in outputs:
         with bar("writing", "parts") as progress:
             write_plan(report.plan, outputs["plan"], progress=progress)
     if "picture" in outputs:

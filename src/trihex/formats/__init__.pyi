@@ -53,6 +53,9 @@ from .text import (
     check_text as check_text,
     read_text as read_text,
 )
+from .tiled_layers import (
+    write_tiled as write_tiled,
+)
 from .toml import (
     complaint as complaint,
     read_toml as read_toml,
@@ -66,6 +69,7 @@ from .values_csv import (
 from .writing import (
     AREA_SUFFIXES as AREA_SUFFIXES,
     DEPENDENCY_SUFFIXES as DEPENDENCY_SUFFIXES,
+    LAYER_SUFFIXES as LAYER_SUFFIXES,
     PLAN_SUFFIXES as PLAN_SUFFIXES,
     SCENARIO_SUFFIXES as SCENARIO_SUFFIXES,
     WAYPOINT_SUFFIXES as WAYPOINT_SUFFIXES,

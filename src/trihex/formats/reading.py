@@ -32,8 +32,8 @@ def read_draft(
     Parameters
     ----------
     path : path
-        MovingAI ``.map``, letters ``.txt``, ROS map ``.yaml``, image, ``.geojson``, ``.wkt``, scenario ``.toml`` or
-        plan ``.npz``.
+        MovingAI ``.map``, letters ``.txt``, Tiled ``.tmj`` and ``.tmx``, ROS map ``.yaml``, image, ``.geojson``,
+        ``.wkt``, scenario ``.toml`` or plan ``.npz``.
     tessellation : Tessellation or str, optional
         What the cells are; a name tells the shape alone. Default: what the file says, or hexagonal.
     neighbourhood, costs : str, optional
@@ -56,10 +56,13 @@ def read_draft(
     given = {name: value for name, value in options.items() if value is not None}
     if not form.brings_scenario:
         wanted = _wanted(Tessellation("hexagonal"), tessellation, neighbourhood, costs)
-        return _parse_area(content, form, path, AreaOptions(wanted, **given), progress)
+        draft = _parse_area(content, form, path, AreaOptions(wanted, **given), progress)
+        own = draft.area.tessellation
+        if form.brings_shape and tessellation is not None and wanted.name != own.name:
+            raise FormatError(f"{path}: has {own.name} cells, which cannot be read as {wanted.name}")
+        return draft
     if given:
         raise FormatError(f"{path}: says itself how its area lies in the world; {', '.join(given)} cannot change it")
-    draft: Draft
     if form.holds == "plan":
         draft = draft_of(form.parse(content, path).scenario)
     else:

@@ -50,6 +50,8 @@ class Format:
         Of a file of text.
     brings_scenario : bool
         Whether a plan needs none to be named.
+    brings_shape : bool
+        Whether it says what shape the cells of an area have.
     is_of_letters : bool
         Whether one character of an area is one cell, of whatever shape.
     """
@@ -63,6 +65,7 @@ class Format:
     is_text: bool = True
     most_bytes: int = MAX_BYTES
     brings_scenario: bool = False
+    brings_shape: bool = False
     is_of_letters: bool = False
 
     @cached_property
@@ -108,6 +111,12 @@ _FORMATS = (
     Format(
         "movingai", "a MovingAI map", "area", "areas.movingai.parse_movingai",
         rb"\A(?:.*\n){0,3}(?:(?:type|height|width)\s|map\s*$)", (".map",), is_of_letters=True,
+    ),
+    Format(
+        "tiled", "a map of Tiled", "area", "areas.tiled.parse_tiled",
+        rb"(?s)\A\s*(?:(?:<\?xml.{0,200}?\?>|<!--.{0,2000}?-->|<!DOCTYPE[^>]*>)\s*)*<map\b|\A\s*\{\s*\"(?:compressionlevel|height|"
+        rb"hexsidelength|infinite|layers|nextlayerid|orientation|renderorder|staggeraxis|tiledversion|tilesets|tilewidth)\"\s*:",
+        (".tmj", ".tmx"), most_bytes=MAX_JSON, brings_shape=True,
     ),
     Format("scen", "starts (.scen)", "starts", "starts.scen.parse_scen", rb"\A[^\S\n]*version(?:\s|\Z)", (".scen",)),
     Format(
@@ -159,6 +168,10 @@ WRITERS = {
         ".json": "tracks.nav_path.write_nav_path_json",
         ".geojson": "tracks.geojson.write_geojson",
         ".sqlite": "tracks.jupedsim.write_jupedsim",
+        ".mcap": "tracks.mcap.write_mcap",
+    },
+    "layers": {
+        ".tmj": "tiled_layers.write_tiled",
     },
     "dependencies": {
         ".dependencies.json": "orders.dependencies.write_dependencies_json",

@@ -17,6 +17,7 @@ SCENARIO_SUFFIXES = tuple(WRITERS["a scenario"])
 PLAN_SUFFIXES = tuple(WRITERS["a plan"])
 WAYPOINT_SUFFIXES = tuple(WRITERS["waypoints"])
 DEPENDENCY_SUFFIXES = tuple(WRITERS["dependencies"])
+LAYER_SUFFIXES = tuple(WRITERS["layers"])
 
 
 def write_area(area: Area, path: str | os.PathLike[str]) -> None:
@@ -74,7 +75,7 @@ def write_waypoints(
     """Write where each robot is at which second, in metres; no robot is faster than `speed` metres in a second.
 
     ``.csv`` has a row for each robot and step, ``.yaml`` and ``.json`` a nav_msgs/Path for each robot, ``.geojson`` a
-    LineString for each robot; ``.sqlite`` is for JuPedSim and PedPy.
+    LineString for each robot; ``.sqlite`` is for JuPedSim and PedPy; ``.mcap``, a recording of ROS, for Foxglove, RViz.
 
     Parameters
     ----------

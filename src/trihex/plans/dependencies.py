@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from trihex.errors import PlanError, check_type
 from trihex.kernels.codes import WAIT
 from trihex.plans.plan import Plan
-from trihex.plans.walk import cells_of_rows, steps_of_actions
+from trihex.plans.rows import cells_of_rows, steps_of_actions
 from trihex.record import Record, counted, read_only
 
 Ints = NDArray[np.int64]

@@ -70,19 +70,10 @@ def write_jupedsim(tracks: Tracks, path: str | os.PathLike[str]) -> None:
 
 
 def _rows_of_frames(tracks: Tracks) -> Iterator[tuple[float, ...]]:
-    """Yield frame, robot, place and heading, frame by frame, of every robot that is in the world in it."""
-    own = np.flatnonzero(tracks.ends_step)
-    step, robot = tracks.step[own], tracks.robot[own]
-    is_last = np.append(np.diff(robot) > 0, True)[: own.size]
-    frames = np.where(is_last, 1, np.append(step[1:], 0) - step)  # from each row up to the next of its robot
-    row = np.repeat(np.arange(own.size), frames)
-    later = np.arange(row.size) - np.repeat(np.cumsum(frames) - frames, frames)
-    share, next_row = later / frames[row], np.where(is_last[row], row, row + 1)
-    x, y = (at[own[row]] + share * (at[own[next_row]] - at[own[row]]) for at in (tracks.x, tracks.y))
-    step, robot, yaw = step[row] + later, robot[row], tracks.yaw[own[row]]
-    order = np.lexsort((robot, step))
-    columns = (step, robot, x, y, np.cos(yaw), np.sin(yaw))
-    yield from zip(*(column[order].tolist() for column in columns), strict=True)
+    """Yield frame, robot, place and heading, frame by frame."""
+    frames = tracks.frames()
+    columns = (frames.step, frames.robot, frames.x, frames.y, np.cos(frames.yaw), np.sin(frames.yaw))
+    yield from zip(*(column.tolist() for column in columns), strict=True)
 
 
 def _walkable(area: Area, tracks: Tracks) -> str:

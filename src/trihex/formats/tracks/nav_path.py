@@ -21,7 +21,7 @@ def write_nav_path_json(tracks: Tracks, path: str | os.PathLike[str]) -> None:
     with new_file(path) as part, open(part, "w", encoding="ascii", newline="\n") as file:
         for robot in range(tracks.robot_count):
             file.write("[\n" if robot == 0 else ",\n")
-            file.write(json.dumps(_message(tracks, robot)))
+            file.write(json.dumps(path_of_robot(tracks, robot)))
         file.write("\n]\n" if tracks.robot_count else "[]\n")
 
 
@@ -30,27 +30,33 @@ def write_nav_path_yaml(tracks: Tracks, path: str | os.PathLike[str]) -> None:
     with new_file(path) as part, open(part, "w", encoding="ascii", newline="\n") as file:
         for robot in range(tracks.robot_count):
             file.write(f"---  # robot {robot}\n")
-            file.writelines(_yaml_lines(_message(tracks, robot), ""))
+            file.writelines(_yaml_lines(path_of_robot(tracks, robot), ""))
 
 
-def _message(tracks: Tracks, robot: int) -> dict[str, Any]:
+def path_of_robot(tracks: Tracks, robot: int) -> dict[str, Any]:
     """Return the message of a robot with the fields of nav_msgs/Path."""
     rows = tracks.rows_of(robot)
     columns = (column[rows].tolist() for column in (tracks.seconds, tracks.x, tracks.y, tracks.yaw))
     poses = [
         {
-            "header": _header(seconds, tracks.frame_id),
-            "pose": {
-                "position": {"x": round(x, 6), "y": round(y, 6), "z": 0.0},
-                "orientation": {"x": 0.0, "y": 0.0, "z": round(sin(yaw / 2), 9), "w": round(cos(yaw / 2), 9)},
-            },
+            "header": header_of(seconds, tracks.frame_id),
+            "pose": pose_of(x, y, yaw),
         }
         for seconds, x, y, yaw in zip(*columns, strict=True)
     ]
-    return {"header": _header(0.0, tracks.frame_id), "poses": poses}
+    return {"header": header_of(0.0, tracks.frame_id), "poses": poses}
 
 
-def _header(seconds: float, frame_id: str) -> dict[str, Any]:
+def pose_of(x: float, y: float, yaw: float) -> dict[str, Any]:
+    """Return a place and a heading with the fields of geometry_msgs/Pose."""
+    return {
+        "position": {"x": round(x, 6), "y": round(y, 6), "z": 0.0},
+        "orientation": {"x": 0.0, "y": 0.0, "z": round(sin(yaw / 2), 9), "w": round(cos(yaw / 2), 9)},
+    }
+
+
+def header_of(seconds: float, frame_id: str) -> dict[str, Any]:
+    """Return a time and a frame with the fields of std_msgs/Header."""
     whole, nanoseconds = divmod(round(seconds * 1e9), 10**9)
     return {"stamp": {"sec": whole, "nanosec": nanoseconds}, "frame_id": frame_id}
 

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from numbers import Real
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Area, seconds_per_step
+from trihex.areas import Area, Scenario, seconds_per_step
 from trihex.errors import FormatError
 from trihex.plans import Motion, Plan, place_of_action, rows_of_motion
 from trihex.record import Record, read_only
@@ -26,7 +27,8 @@ class Tracks(Record):
 
     Attributes
     ----------
-    area : Area
+    scenario : Scenario
+        What was planned.
     seconds_per_step : float
         Of a tick by the clock "costs".
     first_row : int64 array, shape (robots + 1,)
@@ -43,7 +45,7 @@ class Tracks(Record):
         What ROS calls the frame of x and y.
     """
 
-    area: Area
+    scenario: Scenario
     seconds_per_step: float
     first_row: NDArray[np.int64]
     step: NDArray[np.int64]
@@ -57,6 +59,11 @@ class Tracks(Record):
     def __post_init__(self) -> None:
         for name in ("first_row", "step", "seconds", "x", "y", "yaw", "arrived"):
             self._set(name, read_only(getattr(self, name)))
+
+    @property
+    def area(self) -> Area:
+        """The area, which has a frame."""
+        return self.scenario.area
 
     @property
     def robot_count(self) -> int:
@@ -76,6 +83,33 @@ class Tracks(Record):
     def rows_of(self, robot: int) -> slice:
         """Return the rows of a robot."""
         return slice(int(self.first_row[robot]), int(self.first_row[robot + 1]))
+
+    def frames(self) -> Frames:
+        """Return where all robots are, step (tick) by step; one on its way is between two centres, in a straight line.
+
+        A robot is in the frame of the step in which it arrives, its last.
+        """
+        own = np.flatnonzero(self.ends_step)
+        step, robot = self.step[own], self.robot[own]
+        is_last = np.append(np.diff(robot) > 0, True)[: own.size]
+        frames = np.where(is_last, 1, np.append(step[1:], 0)[: own.size] - step)  # up to the next row of its robot
+        row = np.repeat(np.arange(own.size), frames)
+        later = np.arange(row.size) - np.repeat(np.cumsum(frames) - frames, frames)
+        share, next_row = later / frames[row], np.where(is_last[row], row, row + 1)
+        x, y = (at[own[row]] + share * (at[own[next_row]] - at[own[row]]) for at in (self.x, self.y))
+        step, robot, yaw = step[row] + later, robot[row], self.yaw[own[row]]
+        order = np.lexsort((robot, step))
+        return Frames(step[order], robot[order], x[order], y[order], yaw[order])
+
+
+class Frames(NamedTuple):
+    """Where robots are in each step (tick), step by step and in each by number; x, y in metres, yaw in radians."""
+
+    step: NDArray[np.int64]
+    robot: NDArray[np.int64]
+    x: NDArray[np.float64]
+    y: NDArray[np.float64]
+    yaw: NDArray[np.float64]
 
 
 def check_speed(speed: float) -> None:
@@ -124,7 +158,7 @@ def make_tracks(motion: Motion, speed: float = 1.0, *, turn_time: float = 0.0, f
         yaw = np.where(is_after | begins | last[rows], yaw[rows], came[rows])
         step, x, y, seconds = step[rows], x[rows], y[rows], seconds[rows] + turn_time * is_after
         first_row = np.append(0, np.cumsum(2 * np.diff(first_row) - 1))
-    return Tracks(area, duration, first_row, step, seconds, x, y, yaw, motion.arrived, frame_id)
+    return Tracks(motion.scenario, duration, first_row, step, seconds, x, y, yaw, motion.arrived, frame_id)
 
 
 def _check_no_jump(motion: Motion) -> None:
