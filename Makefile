@@ -31,6 +31,7 @@ $(VENV)/.user: pyproject.toml
 	@touch $@
 $(VENV)/.dev: pyproject.toml $(VENV)/.user
 	$(INSTALL) -e '.[dev]'
+	$(INSTALL) --no-deps 'jupedsim>=1.2' # its window alone needs Qt and VTK, 1.2 GB
 	@touch $@
 $(VENV)/.bench: pyproject.toml $(VENV)/.user
 	$(INSTALL) -e '.[bench]'
