@@ -24,7 +24,10 @@ ROOT = Path(__file__).parent.parent
 DOCS = sorted((ROOT / "docs").rglob("*.md"))
 PAGES = [*DOCS, *sorted(ROOT.glob("*.md"))]
 SCRIPTS = sorted(
-    path for path in (ROOT / "examples").glob("*.py") if path.stem not in ("__main__", "drawing", "concepts")
+    path
+    for path in (ROOT / "examples").glob("*.py")
+    if path.stem
+    not in ("__main__", "drawing", "concepts", "executor")  # no pictures; tests/formats/test_dependencies.py
 )
 # Commands that go on until they are stopped, or take long; their words are checked all the same.
 NOT_RUN = {"view", "demo", "study"}
