@@ -23,7 +23,8 @@ from trihex.planners import PLANNERS
 ROOT = Path(__file__).parent.parent
 DOCS = sorted((ROOT / "docs").rglob("*.md"))
 PAGES = [*DOCS, *sorted(ROOT.glob("*.md"))]
-NO_PICTURES = ("__main__", "drawing", "concepts", "check_certificate")
+# They draw none; tests/optimum/test_certificate.py and tests/formats/test_dependencies.py run them.
+NO_PICTURES = ("__main__", "drawing", "concepts", "check_certificate", "executor")
 SCRIPTS = sorted(path for path in (ROOT / "examples").glob("*.py") if path.stem not in NO_PICTURES)
 # Commands that go on until they are stopped, or take long; their words are checked all the same.
 NOT_RUN = {"view", "demo", "study"}
