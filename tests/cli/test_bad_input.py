@@ -113,7 +113,7 @@ CASES = {
     "area of no cells": (None, ["generate", "random", "--size", "0,9", "--out", "a.map"], "width must be a whole number from 1, not 0"),
     "area beyond all size": (None, ["generate", "random", "--size", "99999999,99999999", "--out", "a.map"], "an area may have at most 2000000000 cells, not 99999999 x 99999999"),
     "robots as an area": (None, ["convert", "world.txt", "world2.map"], "world2.map: the suffix of a scenario must be one of .toml, .txt, not '.map'"),
-    "plan as an area": (None, ["convert", "plan.csv", "a.map"], "a.map: the suffix of a plan or waypoints must be one of *, not '.map'"),
+    "plan as an area": (None, ["convert", "plan.csv", "a.map"], "a.map: the suffix of a plan, waypoints, dependencies or layers must be one of *, not '.map'"),
     "rules for an area": (None, ["convert", "world.map", "a.txt", *AIM], "--destination is for plans; world.map holds none"),
 }  # fmt: skip
 

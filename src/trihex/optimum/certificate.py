@@ -48,6 +48,11 @@ class Certificate(Record):
     step: NDArray[np.int64]
     toll: NDArray[np.int64]
 
+    def __post_init__(self) -> None:
+        check_type("plan", self.plan, Plan)
+        for name in ("cell", "step", "toll"):
+            self._set(name, read_only(np.asarray(getattr(self, name), dtype=np.int64)))
+
     def in_words(self) -> str:
         """Return how many tolls prove which plan."""
         return f"{self.toll.size} tolls for {self.plan.in_words()}"

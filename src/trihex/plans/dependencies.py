@@ -56,6 +56,7 @@ class Dependencies(Record):
     rings: tuple[Ints, ...]
 
     def __post_init__(self) -> None:
+        check_type("plan", self.plan, Plan)
         for name in ("first_waypoint", "cell_of_waypoint", "step_of_waypoint", "waits"):
             self._set(name, read_only(getattr(self, name)))
 
