@@ -185,6 +185,8 @@ def make_seeds() -> dict[str, bytes]:
         b"step,event,x,y,zone,metres\n2,barrier,3,2,,\n3,join,1,2,,\n4,close,,,north,\n5,barrier,,,,1 1; 2 1; 2 2\n"
     )
     seeds["events.toml"] = b'[[event]]\nstep = 2\nevent = "barrier"\nmetres = [[1, 1], [2, 1.5]]\n'
+    seeds["events.toml"] += b'[[event]]\nsecond = 2.5\nevent = "open"\ncell = [3, 2]\n'
+    seeds["seconds.csv"] = b"second,event,x,y\n0,barrier,3,2\n2.5,open,1,2\n"
     seeds["crowd.txt"] = b"# framerate: 2\n0 0 0.2 -0.2\n0 1 0.7 -0.2\n4 0 1.2 -1.2\n4 1 1.2 -1.7\n"
     seeds["study.toml"] = STUDY.encode()
     seeds["plan.dxf"], seeds["binary.dxf"] = drawing("asc"), drawing("bin")

@@ -77,7 +77,7 @@ def read_some_starts(path: Path) -> None:
 
 def read_some_events(path: Path) -> None:
     """Read what will happen."""
-    read_events(path)
+    read_events(path, _YARD)
 
 
 def read_a_run(path: Path) -> None:
@@ -172,6 +172,7 @@ TARGETS: dict[str, Callable[[Path], None]] = {
     "request.bundle": answer_a_request,
     "events.csv": read_some_events,
     "events.toml": read_some_events,
+    "seconds.csv": read_some_events,
     "run.npz": read_a_run,
     "crowd.sqlite": read_a_crowd,
     "crowd.txt": read_a_crowd,

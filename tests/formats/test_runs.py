@@ -146,6 +146,14 @@ def test_wrong_toml_is_refused_with_its_key(tmp_path, text, why):
         th.read_events(path)
 
 
+def test_of_many_mistakes_twenty_are_told_and_the_others_counted(tmp_path):
+    (tmp_path / "events.toml").write_text('[[event]]\nstep = 1\nevent = "jon"\n' * 33)
+    with pytest.raises(th.FormatError) as caught:
+        th.read_events(tmp_path / "events.toml")
+    lines = str(caught.value).splitlines()
+    assert len(lines) == 21 and "event.19.event" in lines[19] and lines[20].endswith("and 13 more mistakes")
+
+
 def test_seconds_are_the_first_step_that_begins_then_or_later(tmp_path):
     area = th.Area("square", np.zeros((3, 3), dtype=bool), frame=Frame(0.3))  # a step lasts 0.3 * sqrt(2) seconds
     lasts = 0.3 * 2**0.5

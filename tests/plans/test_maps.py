@@ -1,15 +1,18 @@
 """Maps and exits: where time is lost, where robots crowd, who leaves where; beside an oracle that walks each robot."""
 
+import csv
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings, strategies as st
+from click.testing import CliRunner
+from hypothesis import example, given, settings, strategies as st
 
 import trihex as th
 from tests.running.random_runs import random_trial
 from tests.strategies import random_scenario
 from trihex.areas import Frame
+from trihex.cli import main
 from trihex.kernels.codes import LATE, WAIT
 from trihex.pictures import palette
 
@@ -34,6 +37,7 @@ def by_hand(motion):
 
 @settings(deadline=None, max_examples=30)
 @given(seed=st.integers(0, 10_000), is_run=st.booleans())
+@example(seed=923, is_run=True)  # robots stand where a destination opens, and is blocked by the next event of the step
 def test_maps_and_exits_are_those_of_each_robot(seed, is_run):
     motion = random_trial(seed).run(most_steps=50) if is_run else th.make_plan(random_scenario(seed), "greedy")
     waited, spent, arrivals = by_hand(motion)
@@ -87,3 +91,23 @@ def test_pictures_of_maps_shade_what_is_not_nought():
     cells = replace(run, scenario=replace(scenario, area=replace(area, frame=None)))
     assert th.picture_of_waiting(cells).scene.legend[0].words == "steps lost"
     assert th.picture_of_density(run).scene.legend[0].words == "robots a square metre"
+
+
+def test_exits_with_a_name_are_counted_by_it(tmp_path):
+    """Two doors of one zone are one exit; a zone beside another is its own; the rest is told by its cell."""
+    zones = (th.Zone("north", [0, 6]), th.Zone("arrived", [1]), th.Zone("hall", [10]))
+    area = th.Area("square", np.zeros((3, 7), dtype=bool), zones=zones)
+    destinations = [(0, 0), (6, 0), (1, 0), (3, 2)]
+    scenario = th.Scenario(area, destinations, [(0, 1), (6, 1), (1, 1), (3, 1)])
+    plan = th.make_plan(scenario, "greedy")
+    exits = th.make_exits(plan)
+    assert exits.names == ("north", "arrived", "(3, 2)")
+    assert [own.tolist() for own in exits.cells] == [[0, 6], [1], [17]]
+    assert exits.arrived[:, -1].tolist() == [2, 1, 1]
+    labels = [line.get_label() for line in th.draw_exits(plan).lines]
+    assert labels == ["all exits", "north", "arrived", "(3, 2)"]
+    th.write_scenario(scenario, tmp_path / "s.toml")
+    command = ["plan", str(tmp_path / "s.toml"), "--planner", "greedy", "--arrivals", str(tmp_path / "n.csv")]
+    assert CliRunner().invoke(main, command).exit_code == 0
+    rows = list(csv.DictReader((tmp_path / "n.csv").read_text().splitlines()))
+    assert [rows[-1][name] for name in ("arrived", "north", "exit arrived", "(3, 2)")] == ["4", "2", "1", "1"]

@@ -98,10 +98,12 @@ def _write_exits(motion: Any, path: Path, speed: dict[str, Any]) -> None:
     exits = make_exits(motion)
     bound = {} if earliest is None else {f"most ({earliest.name})": earliest.curve(motion.steps).tolist()}
     seconds = None if area.frame is None else seconds_per_step(area, **speed)
+    taken = {"step", "seconds", "arrived", *bound}
+    names = [f"exit {name}" if name in taken else name for name in exits.names]
     rows: list[dict[str, Any]] = []
     for step in range(motion.steps + 1):
         when = {"step": step} if seconds is None else {"step": step, "seconds": round(step * seconds, 6)}
-        by_exit = dict(zip(exits.names, exits.arrived[:, step].tolist(), strict=True))
+        by_exit = dict(zip(names, exits.arrived[:, step].tolist(), strict=True))
         most = {name: curve[step] for name, curve in bound.items()}
         rows.append({**when, "arrived": int(exits.total[step]), **most, **by_exit})
     write_values(rows, path)

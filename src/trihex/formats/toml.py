@@ -17,7 +17,7 @@ _QUOTED = re.compile(
     re.DOTALL | re.VERBOSE,
 )
 _DEEPEST = 50
-_MOST_MISTAKES = 50
+_MOST_MISTAKES = 20
 
 
 def read_toml(path: str | os.PathLike[str]) -> dict[str, Any]:

@@ -97,10 +97,9 @@ class Score(Record):
 
     @cached_property
     def exits(self) -> dict[str, int]:
-        """How many left by each exit, by the place of its first cell."""
+        """How many left by each exit, by its name or the place of its first cell."""
         groups = exits_among(self.scenario.area, self.scenario.destinations)
-        names = [self.scenario.area.place_of_cell(int(own[0])) for own in groups]
-        return {name: int(np.sum(self.exit_of_person == number)) for number, name in enumerate(names)}
+        return {own.name: int(np.sum(self.exit_of_person == number)) for number, own in enumerate(groups)}
 
     def as_dict(self) -> dict[str, Any]:
         """Return the numbers: plain ones, strings and None, ready for JSON."""
@@ -224,7 +223,7 @@ def _ends(
     groups = exits_among(scenario.area, scenario.destinations)
     distances = []
     for own in groups:
-        x, y = scenario.area.cell_to_metres(own)
+        x, y = scenario.area.cell_to_metres(own.cells)
         away = np.hypot(trajectories.x[last][:, None] - x, trajectories.y[last][:, None] - y)
         distances.append(away.min(axis=1))
     return arrived, np.where(arrived, np.argmin(np.stack(distances), axis=0), -1)

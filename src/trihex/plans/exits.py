@@ -1,4 +1,4 @@
-"""Exits: who leaves where, and when; an exit is a group of destinations that touch."""
+"""Exits: who leaves where, and when; an exit is a zone with a name, or a group of destinations that touch."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Area, make_regions
+from trihex.areas import Area, Zone, make_regions
 from trihex.errors import check_type
 from trihex.plans.motion import Motion
 from trihex.record import Record, read_only
@@ -20,7 +20,7 @@ class Exits(Record):
     Attributes
     ----------
     names : tuple of str
-        Where the first cell of each exit lies, by the number of the cell.
+        The name of the zone, or where the first cell lies; in the order of first cells.
     cells : tuple of int64 arrays
         The destinations of each exit.
     arrived : int64 array, shape (exits, steps + 1)
@@ -40,7 +40,8 @@ class Exits(Record):
 def make_exits(plan: Motion) -> Exits:
     """Return when robots arrive at each exit of a plan or a run.
 
-    Destinations that touch are one exit; in a run, all cells count that ever were destinations.
+    Destinations in a zone are one exit, of its name, and so are others that touch; in a run, all cells count that ever
+    were destinations.
 
     Parameters
     ----------
@@ -59,21 +60,32 @@ def make_exits(plan: Motion) -> Exits:
     for _, own in plan.worlds():
         if own is not destinations[-1]:
             destinations.append(own)
-    cells = exits_among(plan.scenario.area, np.unique(np.concatenate(destinations)))
     steps, mine = plan.arrival_step_of_robot, plan.last_cell_of_robot
-    arrived = np.zeros((len(cells), plan.steps + 1), dtype=np.int64)
-    for exit_number, own in enumerate(cells):
-        here = plan.arrived & np.isin(mine, own)
+    destinations.append(mine[plan.arrived])  # some are open between two events of one step alone, in no world
+    exits = exits_among(plan.scenario.area, np.unique(np.concatenate(destinations)))
+    arrived = np.zeros((len(exits), plan.steps + 1), dtype=np.int64)
+    for exit_number, one in enumerate(exits):
+        here = plan.arrived & np.isin(mine, one.cells)
         arrived[exit_number] = np.cumsum(np.bincount(steps[here], minlength=plan.steps + 1))
-    names = tuple(plan.scenario.area.place_of_cell(int(own[0])) for own in cells)
-    return Exits(names, tuple(read_only(own) for own in cells), read_only(arrived))
+    return Exits(tuple(one.name for one in exits), tuple(one.cells for one in exits), read_only(arrived))
 
 
-def exits_among(area: Area, destinations: NDArray[np.int64]) -> list[NDArray[np.int64]]:
-    """Return groups of destinations that touch, each ascending, in the order of their first cells."""
+def exits_among(area: Area, destinations: NDArray[np.int64]) -> list[Zone]:
+    """Return exits in the order of their first cells: zones of the area, and groups of other destinations that touch.
+
+    A destination in several zones belongs to the first of them, so that each robot leaves by one exit.
+    """
+    exits, rest = [], np.unique(destinations)
+    for zone in area.zones:
+        own = np.intersect1d(rest, zone.cells)
+        if own.size:
+            exits.append(Zone(zone.name, own))
+        rest = np.setdiff1d(rest, own)
     barriers = np.ones(area.cell_count, dtype=bool)
-    barriers[destinations] = False
+    barriers[rest] = False
     regions = make_regions(replace(area, barriers=barriers.reshape(area.barriers.shape)))
     region = regions.region_of_cell.reshape(-1)
-    groups = [np.flatnonzero(region == number) for number in range(regions.size_of_region.size)]
-    return sorted(groups, key=lambda own: int(own[0]))
+    for number in range(regions.size_of_region.size):
+        own = np.flatnonzero(region == number)
+        exits.append(Zone(area.place_of_cell(int(own[0])), own))
+    return sorted(exits, key=lambda own: int(own.cells[0]))
