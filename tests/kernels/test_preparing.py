@@ -90,6 +90,7 @@ import sys
 from pathlib import Path
 import trihex as th
 from trihex.kernels.preparing import prepare
+from trihex.planners import uses_of
 def kernels():
     modules = [module for name, module in sys.modules.items() if ".kernels." in name and name.count(".") > 2]
     return {{module.__name__ for module in modules if any(hasattr(one, "py_func") and one.signatures
@@ -98,9 +99,10 @@ folder = Path({str(tmp_path)!r})
 area = th.make_rooms_area("hexagonal", 24, 32, seed=1)
 exits = [(1, 1)]
 scenario = th.Scenario(area, exits, th.random_robots(area, 60, seed=1, avoid=exits))
-if {use!r} not in {tuple(PLANNERS)!r}:
+is_planner = {use!r} in {tuple(PLANNERS)!r}
+if not is_planner:
     plan = th.make_plan(scenario, "greedy")
-prepare({use!r}, "n_scheme")
+prepare(*(uses_of({use!r}, scenario) if is_planner else [{use!r}]), "n_scheme")
 before = kernels()
 {USES[use]}
 print(sorted(kernels() - before))

@@ -27,6 +27,7 @@ WISHES = {
 OTHERS = {
     "request.bundle",
     "events.csv",
+    "seconds.csv",
     "events.toml",
     "study.toml",
     "crowd.sqlite",
