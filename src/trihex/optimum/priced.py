@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from trihex.memory import limit_or_default
 from trihex.optimum.flow import Flow
 from trihex.optimum.network import Network
-from trihex.optimum.workspace import SPARE_LAYERS, check_memory, least_layers, longer, start_nodes
+from trihex.optimum.workspace import SPARE_LAYERS, check_memory, layer_of, least_layers, longer, start_nodes
 
 # Bytes for each node of a layer: flow and two prices.
 _BYTES_PER_NODE = 9
@@ -55,7 +55,6 @@ class _PricedWork:
     """
 
     def __init__(self, network: Network, cells: NDArray[np.int64], memory_limit: int | None) -> None:
-        from trihex.kernels.signatures import given
         from trihex.optimum.kernels import prices as kernels
         from trihex.optimum.kernels.flow_byte import START
 
@@ -64,13 +63,7 @@ class _PricedWork:
         self.layers = least_layers(network, cells) + SPARE_LAYERS
         self._check_memory(self.layers)
         size = self.layers * network.node_count
-        self.graph = given(
-            kernels.PricedGraph,
-            out=network.out_arcs,
-            into=network.in_arcs,
-            first_goal=network.first_destination,
-            capacity=network.capacity,
-        )
+        self.graph = layer_of(network)
         self.nodes = kernels.PricedNodes(*(np.zeros(size, dtype) for dtype in (np.uint8, np.int32, np.int32)))
         self.search = _make_search(start_nodes(network, cells))
         self.nodes.flow[self.search.start] = START << 4

@@ -42,13 +42,7 @@ class Workspace:
         self.layers = least_layers(network, cells) + SPARE_LAYERS
         self._check_memory(self.layers)
         size = self.layers * network.node_count
-        self.layer = given(
-            kernels.Layer,
-            out=network.out_arcs,
-            into=network.in_arcs,
-            first_goal=network.first_destination,
-            capacity=network.capacity,
-        )
+        self.layer = layer_of(network)
         self.nodes = kernels.FlowNodes(np.zeros(size, np.uint8), np.zeros(size, np.int32))
         self.search = kernels.FlowSearch(
             np.empty((_LOG, kernels.LOG_COLUMNS), dtype=np.int64),
@@ -84,6 +78,20 @@ class Workspace:
     def _check_memory(self, layers: int, log_bytes: int = 0) -> None:
         need = layers * self.network.node_count * _BYTES_PER_NODE + log_bytes
         check_memory(self.network, self.cells, layers, need, self.limit)
+
+
+def layer_of(network: Network) -> Any:
+    """Return `Layer` as kernels know it."""
+    from trihex.kernels.signatures import given
+    from trihex.optimum.kernels.residual import Layer
+
+    return given(
+        Layer,
+        out=network.out_arcs,
+        into=network.in_arcs,
+        first_goal=network.first_destination,
+        capacity=network.capacity,
+    )
 
 
 def check_memory(network: Network, cells: NDArray[np.int64], layers: int, need: int, limit: int) -> None:

@@ -57,6 +57,11 @@ def draw_arrivals(
         ax.step(times, arrived, where="post", color=series(number), label=label)
     words = " or ".join(sorted({plan.scenario.step_word for plan in plans})) or "step"
     ax.set_xlabel("seconds" if in_seconds else words)
+    return _finished(ax, title, legend)
+
+
+def _finished(ax: Any, title: str | None, legend: bool) -> Any:
+    """Name what goes up in curves of arrivals, and return the Axes."""
     ax.set_ylabel("robots arrived")
     ax.set_ylim(bottom=0)
     if title:
@@ -101,13 +106,7 @@ def draw_exits(
     for number, (name, arrived) in enumerate(zip(exits.names, exits.arrived, strict=True)):
         ax.step(times, arrived, where="post", color=series(number), label=name)
     ax.set_xlabel(plan.scenario.step_word if area.frame is None else "seconds")
-    ax.set_ylabel("robots arrived")
-    ax.set_ylim(bottom=0)
-    if title:
-        ax.set_title(title)
-    if legend:
-        ax.legend()
-    return ax
+    return _finished(ax, title, legend)
 
 
 def draw_score(score: Score, ax: Any = None, *, title: str | None = None, legend: bool = True) -> Any:

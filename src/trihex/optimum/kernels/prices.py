@@ -9,10 +9,8 @@ ones, goes at the least cost. A side is numbered ``2 * index + ENTERING`` or ``L
 
 from typing import NamedTuple
 
-from numba import types
-
 from trihex.kernels.signatures import HELPER, IN_I64, OUT_I32, OUT_I64, OUT_U8, declared
-from trihex.optimum.kernels.residual import LOG, TABLE
+from trihex.optimum.kernels.residual import LOG, Layer
 
 ENTERING, LEAVING = 0, 1
 # The word of a side: its price, less the rise so far if it rises, shifted by `BITS`; whether it rises; and whether the
@@ -29,15 +27,6 @@ FILED = 5  # entries that have been filed
 FREE = 6  # first of the filed entries that are free again, or NONE
 ARRIVALS = 7  # arcs to destinations that have become tight
 STATE_SIZE = 8
-
-
-class PricedGraph(NamedTuple):
-    """Arcs of one layer, as in `trihex.optimum.network`, and what holds for all."""
-
-    out: TABLE  # arcs that leave each node, in descending order of reduced cost
-    into: TABLE  # arcs that enter each node, likewise
-    first_goal: types.int64  # nodes that are no destinations
-    capacity: types.int64  # how many robots get into a destination in a step
 
 
 class PricedNodes(NamedTuple):
@@ -62,7 +51,7 @@ class PricedSearch(NamedTuple):
 
 
 ARCS = 16
-GRAPH, NODES, SEARCH = declared(PricedGraph), declared(PricedNodes), declared(PricedSearch)
+GRAPH, NODES, SEARCH = declared(Layer), declared(PricedNodes), declared(PricedSearch)
 
 
 @HELPER
