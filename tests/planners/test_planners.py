@@ -88,3 +88,10 @@ def test_names_and_options_are_checked():
         make_plan(scenario, "greedy", n_scheme=th.make_n_scheme(scenario.with_robots([])))
     assert all(planner_named(name).__doc__ for name in PLANNERS)
     assert options_of("fcost") == {"rule": "best"}
+
+
+def test_what_cannot_be_planned_is_told_before_anything_is_compiled(monkeypatch):
+    monkeypatch.setattr("trihex.planners.registry.prepare", lambda *uses: pytest.fail(f"compiles {uses}"))
+    scenario = th.Scenario(th.Area("square", [[0, 0]]), [(0, 0)], [(1, 0)], clock="costs")
+    with pytest.raises(th.PlanError, match="planner 'optimal' needs moves that last equally long, not 5 and 7 ticks"):
+        make_plan(scenario, "optimal")

@@ -255,7 +255,7 @@ def complete(draft: Draft, *uses: str, needs_robots: bool = True) -> Scenario:
 
     from trihex.fields import field_kernels
     from trihex.kernels.preparing import prepare
-    from trihex.planners import uses_of
+    from trihex.planners import check_plannable, uses_of
 
     if draft.destinations is None:
         raise wrong_use("there is no destination: add --destination X,Y")
@@ -263,6 +263,8 @@ def complete(draft: Draft, *uses: str, needs_robots: bool = True) -> Scenario:
         raise wrong_use("there are no robots: add --robots N or --starts FILE")
     known = draft if draft.random_count is None else replace(draft, random_count=None)
     scenario = known.complete()
+    for use in uses:
+        check_plannable(use, scenario)
     if uses and (draft.random_count or 0) <= draft.area.free_count:  # or they cannot be drawn, which is told at once
         needed = [need for use in uses for need in uses_of(use, scenario)]
         prepare(*needed, field_kernels(draft.area.tessellation, scenario.corners))

@@ -7,6 +7,7 @@ from .naming import (
 from .registry import (
     PLANNERS as PLANNERS,
     RECORDS as RECORDS,
+    check_plannable as check_plannable,
     check_planner_options as check_planner_options,
     make_plan as make_plan,
     options_of as options_of,

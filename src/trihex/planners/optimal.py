@@ -68,7 +68,7 @@ def plan_optimal(
     """
     check_choice("objective", objective, OBJECTIVES, PlanError)
     scenario = n_scheme.scenario
-    _check_is_flow(scenario)
+    check_is_flow(scenario)
     if objective == "time" and scenario.waiting_cost == 0:
         # Nobody needs a detour where waiting is free: greedy descent pays the distances, which no plan can beat. (The
         # flow would see the same, but among endlessly many layers of equal cost.)
@@ -83,7 +83,7 @@ def plan_optimal(
     return make_plan_of_flow(flow, going[order], proves=objective == "time")
 
 
-def _check_is_flow(scenario: Scenario) -> None:
+def check_is_flow(scenario: Scenario) -> None:
     """Raise PlanError where it is more than the flow through a node of each step that robots must not do."""
     if scenario.is_stepwise:
         return

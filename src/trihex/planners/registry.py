@@ -66,6 +66,14 @@ def uses_of(name: str, scenario: Scenario) -> list[str]:
     return [name, "optimal_earliest" if is_equal else "optimal_crowd"]
 
 
+def check_plannable(name: str, scenario: Scenario) -> None:
+    """Raise PlanError if a planner cannot plan by the rules of a scenario; asked before anything is compiled for it."""
+    if name == "optimal":
+        from trihex.planners.optimal import check_is_flow
+
+        check_is_flow(scenario)
+
+
 def options_of(name: str) -> dict[str, Any]:
     """Return the options of the planner `name` with their defaults.
 
@@ -179,6 +187,7 @@ def make_plan(
     plan = planner_named(planner)
     check_choice("record", record, RECORDS, PlanError)
     check_planner_options(planner, options)
+    check_plannable(planner, scenario)
     prepare(*uses_of(planner, scenario), field_kernels(scenario.area.tessellation, scenario.corners))
     if n_scheme is None:
         n_scheme = make_n_scheme(scenario)
