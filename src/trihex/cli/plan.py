@@ -77,6 +77,8 @@ def command(
 
     Exit status 1: some robots cannot arrive. The others are planned and all outputs are written.
     """
+    from dataclasses import replace
+
     from trihex.planners import check_planner_options
 
     outputs: dict[str, Any] = {name: value for name, value in named._asdict().items() if value is not None}
@@ -87,6 +89,7 @@ def command(
     seconds = {"read": perf_counter() - begin}
     outputs = draft.outputs | outputs
     _check_outputs(outputs, write_scenario)
+    draft = replace(draft, outputs=outputs)  # speed tells which second is which step
     planner = planner or draft.planner or "fcost"
     planner_options = {**(draft.planner_options if planner == draft.planner else {}), **_parsed(planner_option)}
     check_planner_options(planner, planner_options)
@@ -132,6 +135,8 @@ def _check_certifiable(draft: Any, planner: str) -> None:
         raise wrong_use(f"--certificate proves what planner 'optimal' plans, not {planner!r}")
     if draft.destinations is not None:  # or it is told a little later that there is none
         check_certifiable(replace(draft, robots=None, random_count=None).complete())
+    if draft.has_start_times:
+        raise wrong_use("--certificate needs robots that may all begin at once, without start times")
 
 
 def _check_outputs(outputs: dict[str, Any], write_scenario: Path | None) -> None:
