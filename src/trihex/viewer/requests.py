@@ -21,6 +21,14 @@ class Request(BaseModel):
     document: dict[str, Any] | None = None
 
 
+class First(Request):
+    """What the page shows first, where it is not part of the page."""
+
+
+class Prepare(Request):
+    """Compile what most requests will need, beside all else."""
+
+
 class ListFiles(Request):
     """The files that may be opened."""
 
@@ -131,6 +139,8 @@ class Save(Request):
 
 
 REQUESTS: dict[str, type[Request]] = {
+    "first": First,
+    "prepare": Prepare,
     "files": ListFiles,
     "open": OpenFile,
     "generate": Generate,

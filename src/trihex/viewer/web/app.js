@@ -44,7 +44,18 @@ export class App {
     this.theme.apply();
     this.tools.choose(this.canEdit ? "wall" : "move");
     if (first) this.take(first);
-    else this.make(this.draws.begin()).then(() => this.guide.offer());
+    else this.make(this.#begin());
+    if (this.canEdit) this.ready("").then(() => this.questions.prepare());
+  }
+
+  // What the host has to show first; without that an area to play with.
+  async #begin() {
+    const { settings, status } = this, request = { op: "first" };
+    const answer = settings.first ? await this.ask(request, {}, "Opening…") : null;
+    if (answer) return this.take(answer, { isEdit: false });
+    const why = status.isWarning ? status.text : "";
+    await this.draws.begin();
+    return why ? this.say(why, true) : this.guide.offer();
   }
 
   #makeParts() {
@@ -115,7 +126,7 @@ export class App {
   // Until the document is there that is being made.
   async ready(what) {
     while (this.making) {
-      this.say(`${what} as soon as the area and its robots are there.`);
+      if (what) this.say(`${what} as soon as the area and its robots are there.`);
       await this.making;
     }
   }
