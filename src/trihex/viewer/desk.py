@@ -34,6 +34,7 @@ from trihex.viewer.compiling import are_compiled, prepare_for, prepare_usual
 from trihex.viewer.document import document_of, ground_of
 from trihex.viewer.exports import export
 from trihex.viewer.folder import Folder, holds_run, references_of
+from trihex.viewer.layers import LAYERS, make_layer, with_layers
 from trihex.viewer.live import Live, replay_of, trial_of
 from trihex.viewer.needs import Record, judging_of, needs_of, needs_of_draw, needs_of_report
 from trihex.viewer.shelf import Shelf
@@ -94,7 +95,7 @@ class Desk:
         check_type("record", record, Area, Scenario, Plan, Run, Draft)
         if isinstance(record, Run):
             prepare_for(call, *needs_of(record))
-            return show_run(make_run_report(record))
+            return with_layers(show_run(make_run_report(record)), record)
         if isinstance(record, Plan):
             return self._shown(record, {}, call)
         if isinstance(record, Scenario):
@@ -301,6 +302,12 @@ class Desk:
             report = replace(report, bound=bound)
             self.shelf.replace_report(request.plan, report)
         return Bundle({"summary": report.as_dict()}, {})
+
+    def _layer(self, request: ask.MakeLayer, call: Call) -> Bundle:
+        check_choice("layer", request.layer, LAYERS, FormatError)
+        plan = self.shelf.report(request.plan).plan
+        prepare_for(call, *LAYERS[request.layer].uses)
+        return make_layer(request.layer, plan)
 
     def _shown(self, plan: Plan, seconds: dict[str, float], call: Call) -> Bundle:
         """Return the plan with the bounds that are had at once; the page asks for a better one while it plays."""

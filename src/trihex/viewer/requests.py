@@ -86,6 +86,13 @@ class Bound(Request):
     plan: _Text
 
 
+class MakeLayer(Request):
+    """A map of a plan over its cells."""
+
+    plan: _Text
+    layer: _Text
+
+
 class Live(Request):
     """A run that the page drives step by step; `sense` in cells, None for robots that know everything."""
 
@@ -149,6 +156,7 @@ REQUESTS: dict[str, type[Request]] = {
     "generations": Generations,
     "plan": MakePlan,
     "bound": Bound,
+    "layer": MakeLayer,
     "live": Live,
     "advance": Advance,
     "judge": Judge,

@@ -13,6 +13,7 @@ import { Growing } from "./growing.js";
 import { Hand } from "./hand.js";
 import { History } from "./history.js";
 import { Keys } from "./keys.js";
+import { Layers } from "./layers.js";
 import { LivePanel } from "./livepanel.js";
 import { Opening } from "./opening.js";
 import { Panel, layOut } from "./panel.js";
@@ -68,6 +69,7 @@ export class App {
     this.field = new Field(this);
     this.growing = new Growing(this);
     this.followed = new Followed(this);
+    this.layers = new Layers(this);
     this.results = new Results(this);
     this.readout = new Readout(this);
     this.stage = new Stage(this);
@@ -201,7 +203,8 @@ export class App {
   // ---- what is shown
 
   refresh() {
-    for (const part of [this.bar, this.tools, this.rules, this.draws, this.growing, this.planning]) part?.show();
+    const { bar, tools, rules, draws, growing, planning, layers } = this;
+    for (const part of [bar, tools, rules, draws, growing, planning, layers]) part?.show();
     this.#sayNext();
     this.livePanel?.show();
     this.stage.show();
