@@ -38,6 +38,7 @@ KERNELS_OF: dict[str, tuple[str, ...]] = {
     "audit": ("judging.audit", "plans.replay"),
     "timely audit": ("judging.timed", "plans.replay"),
     "bound": (*_BOUND, "bounds.steps", "bounds.units"),
+    "slot_bound": ("fields.steps", "bounds.steps"),
     "execution": _EXECUTION,
     "trial": (*_EXECUTION, "running.sensing"),
     "dependencies": ("areas.moves", "plans.implied", "plans.rows", "plans.replay"),
