@@ -1,5 +1,7 @@
 """Random small scenarios over all tessellations and rules, each from one number."""
 
+from dataclasses import replace
+
 import numpy as np
 from hypothesis import strategies as st
 
@@ -33,6 +35,13 @@ def random_scenario(seed, *, sides=(1, 8), most_filled=0.9, most_robots=1000, wa
         destination_capacity=(None, 1, 2)[rng.integers(3)],
         seed=seed,
     )
+
+
+def with_start_times(scenario, seed, *, latest=20):
+    """Return the scenario with start times drawn from `seed`, for about half of the robots, in all but a few cases."""
+    rng = np.random.default_rng(seed)
+    times = rng.integers(0, rng.choice([1, 3, latest + 1]), size=scenario.robot_count)
+    return replace(scenario, start_times=times * (rng.random(times.size) < 0.6))
 
 
 def scenarios(**limits):

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.fields import DScheme
+from trihex.kernels.codes import WAIT
 from trihex.planners.crowd import Crowd, make_crowd
 from trihex.planners.recording import Progress, Recording
 from trihex.planners.slots import Slots
@@ -19,7 +20,9 @@ class TickRecording(Recording):
 
     def __init__(self, crowd: Crowd, keeps_actions: bool) -> None:
         super().__init__(crowd, keeps_actions)
-        self._count = np.zeros(crowd.robot.size, dtype=np.int64)
+        # Until they may begin to move robots wait; those waits are in no row.
+        self._count = crowd.start_time
+        self._time = crowd.start_time * crowd.scenario.waiting_cost
 
     def _steps_of_block(self, first_step: int) -> int:
         from trihex.planners.kernels.claims import WINDOW
@@ -49,7 +52,7 @@ class TickRecording(Recording):
         from trihex.planners.kernels.tick_rows import write_back
 
         first_action = np.concatenate([[0], np.cumsum(self._by_robot(self._count))])
-        actions = np.empty(first_action[-1], dtype=np.uint8)
+        actions = np.full(first_action[-1], WAIT, dtype=np.uint8)
         end = np.append(first_action[1:], 0)[self.crowd.robot]
         while self._rows:  # the last first, so that what is written is freed
             write_back(*self._rows.pop(), end, actions)
@@ -109,11 +112,12 @@ def _make_stage(crowd: Crowd, slots: Slots) -> Any:
 
 
 def _make_agenda(crowd: Crowd) -> Any:
-    """Return `Agenda` as kernels know it: everybody is asked at tick 0."""
+    """Return `Agenda` as kernels know it: everybody is asked as soon as it may begin to move."""
     from trihex.kernels.signatures import given
     from trihex.planners.kernels.timely import Agenda
 
-    due, done, row, came_from, waiting = np.zeros((5, crowd.robot.size), dtype=np.int32)
+    row, came_from, waiting = np.zeros((3, crowd.robot.size), dtype=np.int32)
+    due, done = (crowd.start_time.astype(np.int32) for _ in range(2))
     captain, asked = np.zeros(crowd.count_of_region.size, dtype=np.int32), np.empty(0, dtype=np.int64)
     return given(
         Agenda,
