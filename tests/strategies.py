@@ -55,6 +55,13 @@ def with_random_doors(scenario):
     return replace(scenario, doors=doors, destination_capacity=capacity)
 
 
+def with_start_times(scenario, seed, *, latest=20):
+    """Return the scenario with start times drawn from `seed`, for about half of the robots, in all but a few cases."""
+    rng = np.random.default_rng(seed)
+    times = rng.integers(0, rng.choice([1, 3, latest + 1]), size=scenario.robot_count)
+    return replace(scenario, start_times=times * (rng.random(times.size) < 0.6))
+
+
 def scenarios(**limits):
     """Hypothesis draws the number; what fails is shown as the scenario."""
     return st.integers(0, 2**32 - 1).map(lambda seed: random_scenario(seed, **limits))

@@ -115,7 +115,7 @@ def test_every_module_of_kernels_can_be_compiled_beforehand():
     files = preparing.file_of("trihex").parent.glob("trihex/*/kernels/*.py")
     holding = {path.stem for path in files if re.search(r"^@(kernel|njit)", path.read_text(), re.MULTILINE)}
     named = {kernels.module.rpartition(".")[2] for kernels in kernels_of(KERNELS_OF)}
-    assert len(holding) > 30 and holding <= named
+    assert len(holding) > 30 and holding == named  # what holds helpers alone would never count as compiled
     assert {kernels.module.rpartition(".")[2] for kernels in every_field_kernels()} == {"buckets", "queue"}
 
 

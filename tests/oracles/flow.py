@@ -24,8 +24,10 @@ class Graph:
         reachable, self.goals = rules.reachable(), set(rules.places(scenario.destinations))
         self.openings = Openings(scenario)
         self.crossing = scenario.crossing == "forbid"
-        robots = [place for place in rules.places(scenario.robots) if place in reachable - self.goals]
-        self.starts = [self.numbers["in", robot, 0] for robot in robots]
+        times = zip(rules.places(scenario.robots), scenario.start_times.tolist(), strict=True)
+        robots = {place: time for place, time in times if place in reachable - self.goals}
+        self.starts = [self.numbers["in", *start] for start in robots.items()]
+        self.start_times = robots
         self.end = self.numbers["end"]
         wait = 1 if count_steps else scenario.waiting_cost
         moves = [
@@ -35,6 +37,8 @@ class Graph:
         ]
         for step in range(1, steps + 1):
             for cell in reachable - self.goals:
+                if step <= robots.get(cell, 0):
+                    continue  # a robot stands there until it may go
                 self.add(("in", cell, step - 1), ("out", cell, step), 1, 0)
                 self.add(("out", cell, step), ("in", cell, step), 1, 2 * wait)
                 if self.openings(cell, step) is not None:
@@ -66,15 +70,19 @@ class Graph:
 
 
 def least_total_time(scenario, steps, *, count_steps=False):
-    """Least sum of t_r, or of steps, over the robots that can arrive, if all do so within `steps` steps; or None."""
+    """Least sum of t_r, or of steps, over the robots that can arrive, if all do so within `steps` steps; or None.
+
+    What robots wait until they may go is part of it.
+    """
     graph = Graph(scenario, steps, count_steps)
+    waited = sum(graph.start_times.values()) * (1 if count_steps else scenario.waiting_cost)
     flow = SimpleMinCostFlow()
     for arc in graph.arcs:
         flow.add_arc_with_capacity_and_unit_cost(*arc)
     for start in graph.starts:
         flow.set_node_supply(start, 1)
     flow.set_node_supply(graph.end, -len(graph.starts))
-    return flow.optimal_cost() // 2 if flow.solve() == flow.OPTIMAL else None
+    return waited + flow.optimal_cost() // 2 if flow.solve() == flow.OPTIMAL else None
 
 
 def most_arrivals(scenario, steps):

@@ -19,14 +19,20 @@ def least_total_time(scenario, steps, *, count_steps=False):
     rules = Rules(scenario)
     reachable = rules.reachable()
     destinations = set(rules.places(scenario.destinations))
-    robots = [place for place in rules.places(scenario.robots) if place in reachable and place not in destinations]
+    times = zip(rules.places(scenario.robots), scenario.start_times.tolist(), strict=True)
+    robots = {place: time for place, time in times if place in reachable and place not in destinations}
+    waited = sum(robots.values()) * (1 if count_steps else scenario.waiting_cost)  # until they may go
     if not robots:
         return 0
     cost, at_most, balance, openings = [], defaultdict(list), defaultdict(list), Openings(scenario)
     for step in range(1, steps + 1):
         for cell in reachable - destinations:
+            if step <= robots.get(cell, 0):
+                continue
             moves = [(cell, scenario.waiting_cost), *rules.neighbours(cell)]
             for other, price in moves:
+                if step <= robots.get(other, -1):
+                    continue  # somebody stands there until it may go
                 move = len(cost)
                 cost.append(1 if count_steps else price)
                 balance[cell, step - 1].append((move, -1))
@@ -54,7 +60,7 @@ def least_total_time(scenario, steps, *, count_steps=False):
     for (cell, step), moves in balance.items():
         if step < steps:  # who comes, or starts here, goes on
             rows += [(len(upper), move, sign) for move, sign in moves]
-            upper.append(-(step == 0 and cell in robots))
+            upper.append(-(step == robots.get(cell, -1)))
             lower.append(upper[-1])
     left = [move for (_, step), moves in balance.items() if step == steps for move, sign in moves if sign > 0]
     rows += [(len(upper), move, 1) for move in left]  # nobody is left at the end
@@ -66,4 +72,4 @@ def least_total_time(scenario, steps, *, count_steps=False):
     if solved.status == 2:
         return None
     assert solved.status == 0, solved.message
-    return round(solved.fun)
+    return waited + round(solved.fun)

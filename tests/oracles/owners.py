@@ -89,6 +89,8 @@ class Record:
             if action == WAIT:
                 tick += 1
                 continue
+            if not is_later and tick < self.scenario.start_times[robot]:
+                self.conflicts.append(("start", tick + 1, (robot,), (at,)))
             to = self.target(index, action, at)
             ticks = 1 if action == JUMP else ticks_of_move(self.scenario, at, to)
             forbids = self.scenario.following == "forbid"

@@ -93,6 +93,10 @@ def judge(plan):
     jumps = {at: rules.places(np.array([to]))[0] for at, to in plan.jumps.tolist()}
     place, openings = dict(enumerate(rules.places(scenario.robots))), Openings(scenario)
     start, parked_since, conflicts = dict(place), {}, []
+    for r, own_start in enumerate(scenario.start_times.tolist()):
+        early = [step for step, action in enumerate(own[r], 1) if action != WAIT and step <= own_start]
+        if early and place[r] not in destinations:
+            conflicts.append(("start", early[0], (r,), (place[r],)))
     for r in list(place):
         if place[r] in destinations:
             if own[r]:

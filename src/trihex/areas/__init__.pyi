@@ -31,6 +31,7 @@ from .entries import (
 )
 from .fit import (
     Fit as Fit,
+    kinds_to_fit as kinds_to_fit,
     make_fits as make_fits,
     round_up_size as round_up_size,
 )

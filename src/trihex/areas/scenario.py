@@ -19,13 +19,14 @@ from trihex.areas.nearest import nearest_free_cell
 from trihex.areas.places import cells_from
 from trihex.areas.schedule import Schedule, schedule_of
 from trihex.areas.tessellation import CLOCKS
-from trihex.errors import ScenarioError, check_choice, check_type, check_whole
-from trihex.record import Record, counted, read_only
+from trihex.errors import ScenarioError, check_choice, check_type, check_whole, is_whole
+from trihex.record import Record, counted, read_only, short
 
 CROSSINGS = ("forbid", "allow")
 CORNERS = ("allow", "no-squeeze", "no-cut")
 FOLLOWINGS = ("allow", "forbid")
 _MOST = 2**30  # the largest whole number that a parameter may be: sums of a few fit into int32
+_MOST_START_TIME = 2**24  # steps; planners count half ticks in int32
 _BLOCK = 1 << 24  # sites a kernel looks at in one call, even; Ctrl-C works in between
 
 
@@ -64,6 +65,10 @@ class Scenario(Record):
         Default: "allow"; in an area with a frame "forbid" where that alone makes its cells large enough.
     seed : int, optional
         What drew the robots, for reports.
+    start_times : sequence of int, or int, optional
+        After how many steps (ticks) each robot may begin its first move, or all of them; until then it stands where it
+        starts, and is in the way: people who have not reacted to the alarm yet. Kept as int64. t_r counts from step 0,
+        so until then a robot waits. One that starts on a destination has arrived at step 0 all the same. Default: 0.
     doors : mapping, or sequence, optional
         Places that only so many robots enter in a step, exits or passages: flows by the names of zones, such as
         ``{"north": "1.6/s"}``, or pairs (places, flow), or `Door`. Where a destination is one, its flow stands in the
@@ -94,6 +99,7 @@ class Scenario(Record):
     seed: int | None = None
     clock: str = None  # type: ignore[assignment]
     following: str = None  # type: ignore[assignment]
+    start_times: NDArray[np.int64] = ()  # type: ignore[assignment]
     doors: tuple[Door, ...] = ()
 
     def __post_init__(self) -> None:
@@ -124,6 +130,7 @@ class Scenario(Record):
             raise ScenarioError("destinations must name at least one cell")
         self._set("destinations", read_only(_without_repeats(self.destinations)))
         self._check_distinct()
+        self._set("start_times", read_only(_start_times(self.start_times, self.robot_count)))
 
     def _set_clock(self) -> None:
         """Set what costs the area has by the clock, and what waiting costs."""
@@ -154,6 +161,8 @@ class Scenario(Record):
             f"{name}={_in_words(getattr(self, name))}" for name, usual in rules.items() if getattr(self, name) != usual
         ]
         odd += [f"door {door.in_words()}" for door in self.doors]
+        if self.has_start_times:
+            odd.append(f"start_times=0..{self.start_times.max()}")
         goals = counted(self.destinations.size, "destination")
         return ", ".join([self.area.in_words(), goals, counted(self.robot_count, "robot"), *odd])
 
@@ -161,6 +170,16 @@ class Scenario(Record):
     def robot_count(self) -> int:
         """n, the number of robots."""
         return int(self.robots.size)
+
+    @cached_property
+    def has_start_times(self) -> bool:
+        """Whether some robot may not begin to move at once."""
+        return bool(self.start_times.any())
+
+    @property
+    def moves_by_steps(self) -> bool:
+        """Whether planners may let all robots act in every step: time is in steps alone, and all begin at once."""
+        return self.is_stepwise and not self.has_start_times
 
     @property
     def forbids_crossing(self) -> bool:
@@ -250,8 +269,8 @@ class Scenario(Record):
         return read_only(closed)
 
     def with_robots(self, robots: Any, seed: int | None = None) -> Scenario:
-        """Return the same scenario with other robots."""
-        return replace(self, robots=robots, seed=seed)
+        """Return the same scenario with other robots, who may begin to move at once."""
+        return replace(self, robots=robots, seed=seed, start_times=())  # type: ignore[arg-type]
 
 
 def random_robots(area: Area, count: int, seed: int = 0, *, avoid: Any = ()) -> NDArray[np.int64]:
@@ -310,6 +329,24 @@ def _check_distinct(area: Area, robots: NDArray[np.int64]) -> None:
         one, other = int(order[same[0]]), int(order[same[0] + 1])
         where = area.name_of_cell(int(robots[one]))
         raise ScenarioError(f"two robots must not share a cell; robots {one} and {other} both start at {where}")
+
+
+def _start_times(given: Any, count: int) -> NDArray[np.int64]:
+    """Return the start time of each of `count` robots, given for each, as one for all, or not at all."""
+    if is_whole(given):
+        given = [given] * count
+    times = np.asarray(given)
+    if times.size == 0:
+        return np.zeros(count, dtype=np.int64)
+    if times.dtype.kind not in "iu" or times.ndim != 1:
+        raise ScenarioError(f"start_times must be whole numbers, one for each robot, not {short(given)}")
+    if times.size != count:
+        raise ScenarioError(f"start_times must be one for each of {counted(count, 'robot')}, not {times.size}")
+    wrong = np.flatnonzero((times < 0) | (times > _MOST_START_TIME))
+    if wrong.size:
+        rule = f"a whole number from 0 to {_MOST_START_TIME}"
+        raise ScenarioError(f"start_times[{wrong[0]}] must be {rule}, not {times[wrong[0]]}")
+    return times.astype(np.int64)
 
 
 def _without_repeats(cells: NDArray[np.int64]) -> NDArray[np.int64]:

@@ -6,7 +6,8 @@ docs/bounds.md.
 Where the clock is "costs" t_r is the tick of arrival; all bounds are bounds on arrivals then. Else a bound on *steps*
 becomes one on costs so: let m be the least that a step can cost, min(w_t, cheapest move), and 0 <= u <= m. Charge u for
 each step; what is left of a move is its cost less u, and of a wait w_t less u, neither negative. So t_r >= u * (steps
-of r) + (least sum of what is left on a way of r), for every u alike.
+of r) + (least sum of what is left on a way of r), for every u alike. Where r may not begin to move before step s, it
+has waited s times, and what is left of these waits is paid, too.
 """
 
 from __future__ import annotations
@@ -77,10 +78,22 @@ def make_lower_bound(n_scheme: NScheme, *, progress: Callable[[int, int], None] 
 
 
 def distance_bound(n_scheme: NScheme) -> LowerBound:
-    """Sum of the N-scheme's values: nobody ever waits."""
+    """Sum of the N-scheme's values: nobody ever waits but until its start time."""
     check_type("n_scheme", n_scheme, NScheme)
+    scenario = n_scheme.scenario
+    return LowerBound("distance", _distances(n_scheme) + scenario.waiting_cost * _waits_before_starts(n_scheme))
+
+
+def _distances(n_scheme: NScheme) -> int:
+    """Return the sum of the distances of the robots that can arrive."""
     distance = n_scheme.distance_of_cell(n_scheme.scenario.robots).astype(np.int64)
-    return LowerBound("distance", int(distance[distance != NOT_REACHED].sum()))
+    return int(distance[distance != NOT_REACHED].sum())
+
+
+def _waits_before_starts(n_scheme: NScheme) -> int:
+    """Return how many steps (ticks) robots that can arrive wait in all until they may begin to move."""
+    distance = n_scheme.distance_of_cell(n_scheme.scenario.robots)
+    return int(n_scheme.scenario.start_times[(distance > 0) & (distance != NOT_REACHED)].sum())
 
 
 def slot_bound(n_scheme: NScheme) -> LowerBound:
@@ -184,8 +197,11 @@ def _least_cost(n_scheme: NScheme, steps: int) -> int:
     scenario = n_scheme.scenario
     if scenario.clock == "costs":
         return steps
-    cost = scenario.area.tessellation.cost_of_direction
-    return max(share * steps + _rest(n_scheme, cost - np.int32(share)) for share in _shares(scenario))
+    cost, forced = scenario.area.tessellation.cost_of_direction, _waits_before_starts(n_scheme)
+    return max(
+        share * steps + (scenario.waiting_cost - share) * forced + _rest(n_scheme, cost - np.int32(share))
+        for share in _shares(scenario)
+    )
 
 
 def _shares(scenario: Scenario) -> Iterable[int]:
@@ -206,7 +222,7 @@ def _rest(n_scheme: NScheme, cost: NDArray[np.int32]) -> int:
     scenario = n_scheme.scenario
     layout = scenario.area.layout
     if (cost == cost[0]).all():
-        return distance_bound(n_scheme).value * int(cost[0]) // scenario.area.tessellation.edge_cost
+        return _distances(n_scheme) * int(cost[0]) // scenario.area.tessellation.edge_cost
     least = np.full(layout.size, NOT_REACHED, dtype=np.int32)
     queue = np.empty(scenario.area.free_count + 1, dtype=np.int32)
     is_queued = np.zeros(layout.size, dtype=bool)

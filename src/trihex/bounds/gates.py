@@ -28,7 +28,7 @@ class GateNetwork(Record):
         Gate g is entered from gate ``arc_gate[a]`` no sooner than ``arc_steps[a]`` steps later, for a in
         ``first_arc[g]:first_arc[g + 1]``.
     first_robot, robot, robot_steps : arrays
-        Likewise by robots after their start, the nearest first.
+        Likewise by robots after step 0, the earliest first.
     robot_count : int
         Number of robots in the lists.
     free_steps : int64 array
@@ -117,9 +117,11 @@ class _Survey:
             onto = ~self.is_destination[gates]
             into = gate_steps[onto] + through
             into[self.nodes[gates[onto]] >= size] -= demand.nodes.vertex_duration
+            when = robot_steps + through + demand.start_times[near]
+            order = np.argsort(when, kind="stable")
             for _ in range(self.copies[gate]):
                 arcs.append((first_copy[gates[onto]], into))
-                robots.append((near, robot_steps + through))
+                robots.append((near[order], when[order]))
                 steps_out.append(0 if self.is_destination[gate] else out)
         return GateNetwork(
             demand.nodes.headways(self.nodes).astype(np.int32),

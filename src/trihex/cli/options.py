@@ -183,8 +183,8 @@ def read_described(path: Path, options: dict[str, Any]) -> Draft:
     from trihex.formats import read_draft
 
     place = {name: options[name] for name in _PLACE}
-    if place["robot_radius"] and not place["cell_size"]:  # the least cells depend on the rule
-        place["following"] = options.get("following")
+    if place["robot_radius"] and not place["cell_size"]:  # the least cells depend on the rules
+        place |= {name: options.get(name) for name in ("clock", "following")}
     with bar("covering", "rows") as progress:
         draft = read_draft(
             path,

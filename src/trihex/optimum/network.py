@@ -109,6 +109,14 @@ class Network(Record):
             node[self.site_of_node[nodes]] = nodes
         return read_only(node)
 
+    @cached_property
+    def start_time(self) -> NDArray[np.int64]:
+        """For each node where a robot starts the step after which it may go, 0 for all others."""
+        scenario, time = self.scenario, np.zeros(self.node_count, dtype=np.int64)
+        node = self.node_of_site[scenario.area.layout.cell_to_site(scenario.robots)]
+        time[node[node >= 0]] = scenario.start_times[node >= 0]
+        return read_only(time)
+
 
 class _Prices(NamedTuple):
     """What robots pay in the end."""

@@ -11,7 +11,15 @@ from numpy.typing import NDArray
 from trihex.memory import limit_or_default
 from trihex.optimum.flow import Flow
 from trihex.optimum.network import Network
-from trihex.optimum.workspace import SPARE_LAYERS, check_memory, layer_of, least_layers, longer, start_nodes
+from trihex.optimum.workspace import (
+    SPARE_LAYERS,
+    check_memory,
+    held_nodes,
+    layer_of,
+    least_layers,
+    longer,
+    start_nodes,
+)
 
 # Bytes for each node of a layer: flow and two prices.
 _BYTES_PER_NODE = 9
@@ -67,6 +75,7 @@ class _PricedWork:
         self.nodes = kernels.PricedNodes(*(np.zeros(size, dtype) for dtype in (np.uint8, np.int32, np.int32)))
         self.search = _make_search(start_nodes(network, cells))
         self.nodes.flow[self.search.start] = START << 4
+        self.nodes.flow[held_nodes(network, cells)] = START << 4
         self.nodes.leaving[self.search.start] = kernels.RISES
 
     def make_room(self, status: int) -> None:

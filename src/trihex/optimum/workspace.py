@@ -36,6 +36,7 @@ class Workspace:
     def __init__(self, network: Network, cells: NDArray[np.int64], memory_limit: int | None) -> None:
         from trihex.kernels.signatures import given
         from trihex.optimum.kernels import residual as kernels
+        from trihex.optimum.kernels.flow_byte import START
 
         self.network, self.cells = network, cells
         self.limit = limit_or_default(memory_limit)
@@ -44,6 +45,9 @@ class Workspace:
         size = self.layers * network.node_count
         self.layer = layer_of(network)
         self.nodes = kernels.FlowNodes(np.zeros(size, np.uint8), np.zeros(size, np.int32))
+        if network.scenario.has_start_times:  # else nobody comes to where robots start
+            for nodes in (start_nodes(network, cells), held_nodes(network, cells)):
+                self.nodes.flow[nodes] = START << 4
         self.search = kernels.FlowSearch(
             np.empty((_LOG, kernels.LOG_COLUMNS), dtype=np.int64),
             np.full(kernels.SEARCH_STATE_SIZE, kernels.NONE, dtype=np.int64),
@@ -105,8 +109,20 @@ def check_memory(network: Network, cells: NDArray[np.int64], layers: int, need: 
 
 
 def start_nodes(network: Network, cells: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return the index of the node of each robot in step 0."""
-    return network.hops[cells].astype(np.int64) * network.node_count + cells
+    """Return the index of the node of each robot in step 0, or when it may go."""
+    return (network.hops[cells] + network.start_time[cells]) * network.node_count + cells
+
+
+def held_nodes(network: Network, cells: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return the index of all nodes in which robots stand until they may go, but for those of `start_nodes`.
+
+    Nobody enters one of them, nor the node where the robot goes: each has the mark of a start, from which no flow can
+    be turned back.
+    """
+    times = network.start_time[cells]
+    step = np.arange(times.sum()) - np.repeat(np.cumsum(times) - times, times)
+    nodes: NDArray[np.int64] = (np.repeat(network.hops[cells], times) + step) * network.node_count
+    return nodes + np.repeat(cells, times)
 
 
 def most_entries(network: Network) -> int:
@@ -120,7 +136,7 @@ def most_entries(network: Network) -> int:
 
 def least_layers(network: Network, cells: NDArray[np.int64]) -> int:
     """Return a lower bound on the last arrival: so many robots enter the destinations in a step and no more."""
-    hops = np.sort(network.hops[cells])
+    hops = np.sort(network.hops[cells] + network.start_time[cells])
     behind = np.arange(cells.size)[::-1]
     return int((hops + behind // most_entries(network)).max(initial=0)) + 1
 

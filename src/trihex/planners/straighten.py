@@ -129,7 +129,8 @@ class _Ways:
         reservations.unreserve(start, way)
         found, key = np.empty_like(way), kernels.LIST_FULL
         while key == kernels.LIST_FULL:
-            key = reservations.straighten_way(start, int(self._times[robot]), self._turn, self._layers, found)
+            limits = (int(self.plan.scenario.start_times[robot]), int(self._times[robot]))
+            key = reservations.straighten_way(start, *limits, self._turn, self._layers, found)
             if key == kernels.LIST_FULL:
                 if 2 * self._layers.state.size > _MOST_STATES:
                     break

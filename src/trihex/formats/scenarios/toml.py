@@ -112,10 +112,11 @@ def _outputs(table: ScenarioTable, path: Path) -> dict[str, Any]:
 def _area_draft(whole: ScenarioTable, path: Path, read_area_draft: Callable[[Path, AreaOptions], Draft]) -> Draft:
     table = whole.area
     tessellation = Tessellation(table.tessellation, table.neighbourhood, table.costs)
-    names = (own.name for own in fields(AreaOptions) if own.name not in ("tessellation", "following"))
+    names = (own.name for own in fields(AreaOptions) if own.name not in ("tessellation", "following", "clock"))
     options = {name: value for name in names if (value := getattr(table, name)) is not None}
     if table.path is not None:
-        options["following"] = whole.rules.following or "allow"  # the least cells for robots depend on it
+        # The least cells for robots depend on them.
+        options |= {"following": whole.rules.following or "allow", "clock": whole.rules.clock}
         draft = read_area_draft(path.parent / table.path, AreaOptions(tessellation, **options))
     elif options:
         raise ScenarioError(f"{min(options)} tells how the file at area.path is read; rows take a table area.frame")

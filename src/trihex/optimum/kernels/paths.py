@@ -13,7 +13,7 @@ from trihex.optimum.kernels.residual import OFFSET, TABLE
 class FlowPaths(NamedTuple):
     """A flow, and where robots enter it."""
 
-    start: IN_I64  # index of the node of each robot in step 0
+    start: IN_I64  # index of the node of each robot in step 0, or when it may go
     flow: OUT_U8  # of all nodes of all layers, see `flow_byte`
     out: TABLE  # arcs that leave each node of a layer
     cell_count: types.int64  # nodes that are cells

@@ -194,6 +194,13 @@ def _own(site, k, begin, terrain, reserved):
             reserved.entries[row * reserved.ends + reserved.number[target]] += 1
 
 
+@kernel(types.void(types.int64, types.int64, RESERVED, types.int64))
+def hold(site, last, reserved, size):
+    """Reserve a site up to the row `last`, which the tables have; each of their rows has so many sites."""
+    for row in range(last + 1):
+        reserved.site[row * size + site] = WAIT
+
+
 @kernel(types.void(types.int64, IN_U8, TERRAIN, RESERVED))
 def reserve_ticks(start, actions, terrain, reserved):
     """Reserve a way where moves last, or nobody follows at once. The tables have rows for each of its ticks."""
