@@ -177,9 +177,17 @@ class Scenario(Record):
         return bool(self.start_times.any())
 
     @property
+    def has_flows(self) -> bool:
+        """Whether some cells let robots in by a flow."""
+        return self.schedule.cells.size > 0
+
+    @property
     def moves_by_steps(self) -> bool:
-        """Whether planners may let all robots act in every step: time is in steps alone, and all begin at once."""
-        return self.is_stepwise and not self.has_start_times
+        """Whether planners may let all robots act in every step: time is in steps alone, and nobody waits for a time.
+
+        Where robots wait until they may begin, or until a door opens, they are asked when it is time.
+        """
+        return self.is_stepwise and not self.has_start_times and not self.has_flows
 
     @property
     def forbids_crossing(self) -> bool:

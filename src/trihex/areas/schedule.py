@@ -44,6 +44,14 @@ class Schedule(Record):
         rate, period, phase = (column[:, None] for column in (self.rate, self.period, self.phase))
         return np.asarray((rate * step + phase) // period - (rate * (step - 1) + phase) // period)
 
+    def openings_at(self, cells: Ints, steps: Ints) -> Ints:
+        """Return how many robots may enter some of the cells, by their places here, each in steps of its own.
+
+        The last axis of `steps` is that of the cells.
+        """
+        rate, period, phase = self.rate[cells], self.period[cells], self.phase[cells]
+        return np.asarray((rate * steps + phase) // period - (rate * (steps - 1) + phase) // period)
+
     def of_cells(self, cells: NDArray[np.integer]) -> Schedule:
         """Return the same for those of its cells that are among some."""
         chosen = np.isin(self.cells, cells)

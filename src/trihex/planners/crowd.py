@@ -40,7 +40,7 @@ class Crowd:
 
     def __post_init__(self) -> None:
         size, layout = self.robot.size, self.scenario.area.layout
-        enters = layout.size if self.scenario.entry_limit or self.scenario.schedule.cells.size else 1
+        enters = layout.size if self.scenario.entry_limit else 1
         #: The step in which each robot arrives, 0 until then.
         self.arrival = np.zeros(size, dtype=np.int64)
         self.robot_at = np.zeros(layout.size, dtype=np.int32)
@@ -72,7 +72,6 @@ class Crowd:
             passed=self.passed,
             entered_step=self.entered_step,
             entered_count=self.entered_count,
-            doors=self.scenario.schedule.for_kernels(self.scenario.area.layout),
         )
         robots = given(
             Robots,

@@ -52,7 +52,7 @@ class Reservations:
             least_cost=min(scenario.waiting_cost, int((cost // duration).min())),
             most_cost=(cost // duration).max(),
         )
-        self._has_doors = scenario.schedule.cells.size > 0
+        self._has_doors = scenario.has_flows
         ends = sites.size if scenario.entry_limit or self._has_doors else 0
         number = np.zeros(layout.size if ends else 0, dtype=np.int32)
         if ends:

@@ -94,7 +94,7 @@ def _make_stage(crowd: Crowd, slots: Slots) -> Any:
     scenario, size = crowd.scenario, crowd.scenario.area.layout.size
     duration = scenario.duration_of_direction
     limit = scenario.entry_limit if scenario.entry_limit < duration.size else 0  # no more than that enter at a time
-    counts = scenario.destinations.size * int(kernels.AHEAD) if scenario.schedule.cells.size else 0
+    counts = scenario.destinations.size * int(kernels.AHEAD) if scenario.has_flows else 0
     clock = given(
         kernels.Clock,
         duration=duration,

@@ -12,7 +12,7 @@ from numba import types
 from trihex.kernels.codes import WAIT
 from trihex.kernels.signatures import HELPER, declared
 from trihex.planners.kernels.slots import LEAD, find_slot
-from trihex.planners.kernels.traffic import Now, is_full, is_passed, is_shut
+from trihex.planners.kernels.traffic import Now, is_full, is_passed
 from trihex.planners.kernels.ways import first_of, neighbour, vertex_of, without_first
 
 # What c counts: robots that will be in my slot, or the line that they have formed in it by the time I am there.
@@ -134,7 +134,7 @@ def weigh_others(site, choice, turn, rule, ways, sites, slots, traffic):
             continue
         fcost += rule.price * _collisions(slot, own_slot, slots)
         best = min(best, fcost)
-        if fcost >= least or traffic.robot_at[_U(target)] or is_shut(target, traffic, turn.now):
+        if fcost >= least or traffic.robot_at[_U(target)]:
             continue
         vertex = vertex_of(site, k, ways)
         if not is_passed(vertex, traffic, turn.now):

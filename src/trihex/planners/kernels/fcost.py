@@ -9,7 +9,6 @@ import numpy as np
 from numba import types
 
 from trihex.kernels.codes import WAIT
-from trihex.kernels.doors import has_doors
 from trihex.kernels.signatures import HELPER, IN_I64, OUT_I32, declared, kernel
 from trihex.planners.kernels.choice import MEETINGS, NOBODY, QUEUE, RULE, Choice, Turn, stays, weigh_best, weigh_others
 from trihex.planners.kernels.robots import ROBOTS
@@ -74,13 +73,8 @@ def _ask(own, turn, rule, ways, sites, slots, traffic, robots, asking, rows):
             continue
         if descends and choice.direction != WAIT:
             slots.line[_U(slot)] &= LEAD - 1
-        elif (
-            not (robot == turn.captain and has_doors(traffic.doors))
-            and choice.fcost > sites.distance[_U(site)]
-            and (
-                # At a door that is shut the captain waits: to and fro it might miss every opening.
-                rule.counts == MEETINGS or choice.direction == WAIT or (turn.now.step + robot) % rule.period == 0
-            )
+        elif choice.fcost > sites.distance[_U(site)] and (
+            rule.counts == MEETINGS or choice.direction == WAIT or (turn.now.step + robot) % rule.period == 0
         ):
             choice = weigh_others(site, choice, turn, rule, ways, sites, slots, traffic)
             if stays(robot, site, choice, rule, ways, sites, asking):

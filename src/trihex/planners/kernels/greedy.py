@@ -31,7 +31,7 @@ from trihex.kernels.signatures import (
 from trihex.planners.kernels.cells import CELLS, CHECKED, DESTINATION, DIRECTIONS, OCCUPIED, WATCHED, check, may_go
 from trihex.planners.kernels.robots import ROBOTS
 from trihex.planners.kernels.rows import ROWS
-from trihex.planners.kernels.traffic import TRAFFIC, Now, is_full, is_passed, is_shut, note_entry, note_passing
+from trihex.planners.kernels.traffic import TRAFFIC, Now, is_full, is_passed, note_entry, note_passing
 from trihex.planners.kernels.ways import WAYS, back_of, first_of, neighbour, vertex_of, without_first
 
 # What a robot that has no way does, above all directions.
@@ -118,10 +118,9 @@ def _find_taker(hole, ways, cells, traffic, ranks, awake, now):
     """Return who moves into a hole, against which direction from it; how many could, and how many of them wait.
 
     Those could of whose best cells it is one and who have not moved in this step; they wait if they sleep or have been
-    asked in this step. The first one goes. Whom a passed vertex or a shut door holds up is asked again in the next step.
+    asked in this step. The first one goes. Whom a passed vertex holds up is asked again in the next step.
     """
     taker, against, candidates, waiting = np.int64(NOBODY), np.int64(0), np.int64(0), np.int64(0)
-    is_closed = is_shut(hole, traffic, now)
     for j in range(ways.count):
         beside = neighbour(hole, j, ways)
         flags = np.int64(cells.flags[_U(beside)])
@@ -134,7 +133,7 @@ def _find_taker(hole, ways, cells, traffic, ranks, awake, now):
         waits = 1 - (awake.asked[_U(rank >> 6)] >> (rank & 63) & 1)
         candidates += 1
         waiting += waits
-        if is_closed or (ways.first_vertex_move < ways.count and is_passed(vertex_of(hole, j, ways), traffic, now)):
+        if ways.first_vertex_move < ways.count and is_passed(vertex_of(hole, j, ways), traffic, now):
             awake.coming[_U(rank >> 6)] |= waits << (rank & 63)
         elif rank < taker:
             taker, against = rank, np.int64(j)

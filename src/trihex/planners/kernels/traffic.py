@@ -5,7 +5,6 @@ from typing import NamedTuple
 import numpy as np
 from numba import types
 
-from trihex.kernels.doors import DOORS, has_doors, is_door_full
 from trihex.kernels.signatures import HELPER, OUT_I32, OUT_I64, declared
 
 _U = np.uint64
@@ -18,7 +17,6 @@ class Traffic(NamedTuple):
     passed: OUT_I64  # number of the block in which a vertex was passed last, above 32 bits for the steps of the block
     entered_step: OUT_I32  # when a destination was entered last
     entered_count: OUT_I32  # by how many robots in that step
-    doors: DOORS
 
 
 class Now(NamedTuple):
@@ -48,31 +46,19 @@ def note_passing(vertex, traffic, now):
 
 
 @HELPER
-def is_full(site, limit, traffic, now):
-    """Tell whether as many as may have entered a destination in this step, or whether a door is shut.
-
-    Other sites are never entered: one robot holds each.
-    """
-    if limit > 0 and traffic.entered_step[_U(site)] == now.step and traffic.entered_count[_U(site)] >= limit:
-        return True
-    return has_doors(traffic.doors) and is_door_full(site, now.step, _entered(site, traffic, now), traffic.doors)
-
-
-@HELPER
-def is_shut(site, traffic, now):
-    """Tell whether a cell that is no destination is a door which lets nobody in in this step."""
-    return has_doors(traffic.doors) and is_door_full(site, now.step, np.int64(0), traffic.doors)
-
-
-@HELPER
-def _entered(site, traffic, now):
-    """Return how many robots have entered a destination in this step."""
-    return np.int64(traffic.entered_count[_U(site)]) * (traffic.entered_step[_U(site)] == now.step)
+def is_full(destination, limit, traffic, now):
+    """Tell whether as many as may have entered a destination in this step; other sites are never entered."""
+    return (
+        limit > 0
+        and traffic.entered_step[_U(destination)] == now.step
+        and traffic.entered_count[_U(destination)] >= limit
+    )
 
 
 @HELPER
 def note_entry(destination, limit, traffic, now):
     """Note that a robot enters a destination in this step."""
-    if limit > 0 or has_doors(traffic.doors):
-        traffic.entered_count[_U(destination)] = _entered(destination, traffic, now) + 1
+    if limit > 0:
+        earlier = traffic.entered_count[_U(destination)] * (traffic.entered_step[_U(destination)] == now.step)
+        traffic.entered_count[_U(destination)] = earlier + 1
         traffic.entered_step[_U(destination)] = now.step
