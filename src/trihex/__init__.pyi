@@ -123,6 +123,10 @@ from .plans import (
     make_exits as make_exits,
     make_waiting_map as make_waiting_map,
 )
+from .prices import (
+    Prices as Prices,
+    make_prices as make_prices,
+)
 from .running import (
     Event as Event,
     Execution as Execution,

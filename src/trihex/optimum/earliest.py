@@ -127,7 +127,7 @@ def _make_search(network: Network, words: NDArray[np.uint32]) -> Any:
     from trihex.optimum.kernels.words import DEAD
 
     state = np.zeros(kernels.STATE_SIZE, dtype=np.int64)
-    state[kernels.GOAL] = network.node_count
+    state[kernels.GOAL], state[kernels.LAST] = network.node_count, words.size // network.node_count - 1
     return given(
         kernels.SlotSearch,
         words=words,

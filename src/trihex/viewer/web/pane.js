@@ -32,6 +32,7 @@ export class Pane {
     this.doc = null;
     this.robots = null;
     this.values = null; // distance of each cell, or null for no field
+    this.layer = null; // a map over the cells: values, most; or null
     this.directions = null;
     this.options = {}; // dark, growing, most (distance), arrows, numbers, steps (of directions)
     this.follow = -1;
@@ -148,6 +149,7 @@ export class Pane {
     const { options: { dark }, robots } = this, isPale = robots?.count > 0, key = `${dark} ${isPale}`;
     if (this.colouring?.key === key) return this.colouring.palette;
     const plain = { ...this.colours, ...(dark ? DARK : LIGHT) }, { free } = plain;
+    if (dark) plain.visits = [...plain.visits].reverse(); // what is most is always farthest from the ground
     const pale = (shade) => between(shade, free, dark ? 0.6 : 0.5);
     const palette = isPale ? { ...plain, distance: plain.distance.map(pale) } : plain;
     this.colouring = { key, palette };
@@ -174,9 +176,18 @@ export class Pane {
     }
     const barrier = packed(palette.barrier), destination = packed(palette.destination);
     for (let cell = 0; cell < colour.length; cell++) if (doc.barriers[cell]) colour[cell] = barrier;
+    if (this.layer) this.#overlay(colour, palette);
     if (this.known) this.#fog(colour, palette);
     for (const cell of doc.destinations) colour[cell] = destination;
     return (this.colourOfCell = colour);
+  }
+
+  // A map tells nothing of cells where it is 0.
+  #overlay(colour, palette) {
+    const { values, most } = this.layer, ramp = Uint32Array.from(palette.visits, packed), factor = 255 / (most || 1);
+    for (let cell = 0; cell < colour.length; cell++) {
+      if (values[cell] > 0) colour[cell] = ramp[Math.min(255, Math.round(values[cell] * factor))];
+    }
   }
 
   // What no robot has seen lies under fog; a field shines through it.

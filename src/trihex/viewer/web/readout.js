@@ -26,7 +26,8 @@ export class Readout {
       this.element.removeAttribute("data-cell");
       return;
     }
-    const words = [...this.#there(doc, cell), ...this.#ahead(doc, i, cell)];
+    const layer = this.app.panes[i].layer ? this.app.layers.wordsOf(this.app.runs[i], cell) : "";
+    const words = [...this.#there(doc, cell), ...(layer ? [layer] : []), ...this.#ahead(doc, i, cell)];
     this.element.textContent = words.join(" · ");
     this.element.dataset.cell = cell;
   }
