@@ -1,6 +1,7 @@
 from .areas import (
     GENERATORS as GENERATORS,
     Area as Area,
+    Door as Door,
     Frame as Frame,
     Scenario as Scenario,
     Tessellation as Tessellation,
