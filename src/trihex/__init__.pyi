@@ -1,6 +1,7 @@
 from .areas import (
     GENERATORS as GENERATORS,
     Area as Area,
+    Door as Door,
     Frame as Frame,
     Scenario as Scenario,
     Tessellation as Tessellation,
@@ -11,6 +12,8 @@ from .areas import (
     make_rooms_area as make_rooms_area,
     make_warehouse_area as make_warehouse_area,
     random_robots as random_robots,
+    random_start_times as random_start_times,
+    start_times_of as start_times_of,
 )
 from .bounds import (
     EarliestArrivals as EarliestArrivals,
@@ -54,6 +57,7 @@ from .formats import (
     read_plan as read_plan,
     read_run as read_run,
     read_scenario as read_scenario,
+    read_start_times as read_start_times,
     read_starts as read_starts,
     read_trajectories as read_trajectories,
     write_area as write_area,
