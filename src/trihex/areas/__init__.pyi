@@ -21,6 +21,10 @@ from .coverage import (
     cover_polygons as cover_polygons,
     cover_raster as cover_raster,
 )
+from .door import (
+    Door as Door,
+    doors_from as doors_from,
+)
 from .entries import (
     entries_per_step as entries_per_step,
     ways_into_destinations as ways_into_destinations,
@@ -30,6 +34,10 @@ from .fit import (
     kinds_to_fit as kinds_to_fit,
     make_fits as make_fits,
     round_up_size as round_up_size,
+)
+from .flow import (
+    flow_from as flow_from,
+    flow_in_words as flow_in_words,
 )
 from .frame import (
     Frame as Frame,
@@ -77,6 +85,9 @@ from .scenario import (
     FOLLOWINGS as FOLLOWINGS,
     Scenario as Scenario,
     random_robots as random_robots,
+)
+from .schedule import (
+    Schedule as Schedule,
 )
 from .seconds import (
     seconds_per_step as seconds_per_step,

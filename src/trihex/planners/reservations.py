@@ -52,7 +52,8 @@ class Reservations:
             least_cost=min(scenario.waiting_cost, int((cost // duration).min())),
             most_cost=(cost // duration).max(),
         )
-        ends = sites.size if scenario.entry_limit else 0
+        self._has_doors = scenario.has_flows
+        ends = sites.size if scenario.entry_limit or self._has_doors else 0
         number = np.zeros(layout.size if ends else 0, dtype=np.int32)
         if ends:
             number[sites] = np.arange(ends)
@@ -66,6 +67,8 @@ class Reservations:
             number=number,
             ends=ends,
             capacity=scenario.entry_limit,
+            let_in=np.zeros(0, dtype=np.int32),
+            doors=scenario.schedule.for_kernels(layout),
         )
         self._state = np.zeros(astar.STATE_SIZE, dtype=np.int64)
         self._make_lists(1 << 12)
@@ -112,7 +115,8 @@ class Reservations:
             return
         steps = max(steps, have + have // 2)
         rows = steps * per_step
-        need = rows * (size + 4 * ends) + steps * size * self._forbids
+        lets_in = steps * ends * self._has_doors
+        need = rows * (size + 4 * ends) + steps * size * self._forbids + 4 * lets_in
         if need > self._limit:
             raise TooLargeError(
                 f"reservations would take {need / GIB:.1f} GiB ({steps} steps of {size} cells), more than "
@@ -123,6 +127,7 @@ class Reservations:
             site=_grown(self._reserved.site, rows * size),
             vertex=_grown(self._reserved.vertex, steps * size * self._forbids),
             entries=_grown(self._reserved.entries, rows * ends),
+            let_in=_grown(self._reserved.let_in, lets_in),
         )
 
     def hold(self, start: int, start_time: int) -> None:
