@@ -36,6 +36,7 @@ from .fit import (
     round_up_size as round_up_size,
 )
 from .flow import (
+    check_flow as check_flow,
     flow_from as flow_from,
     flow_in_words as flow_in_words,
 )

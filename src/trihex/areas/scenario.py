@@ -232,7 +232,12 @@ class Scenario(Record):
     @cached_property
     def schedule(self) -> Schedule:
         """When those cells may be entered that let robots in by a flow: doors, and destinations of such a capacity."""
-        return schedule_of(self.doors, self.destinations, self.destination_capacity)
+        if not self.doors:
+            return schedule_of((), self.destinations, self.destination_capacity, np.ones(self.destinations.size, bool))
+        from trihex.areas.entries import ways_into_destinations
+
+        entered: NDArray[np.bool_] = np.asarray((ways_into_destinations(self) >= 0).any(axis=1))
+        return schedule_of(self.doors, self.destinations, self.destination_capacity, entered)
 
     @property
     def corner_rule(self) -> int:

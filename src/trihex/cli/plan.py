@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 from typing import Any, NamedTuple
@@ -86,6 +87,7 @@ def command(
     draft = read_described(area, options)
     seconds = {"read": perf_counter() - begin}
     outputs = draft.outputs | outputs
+    draft = replace(draft, outputs=outputs)  # speed tells what a flow in robots a second is
     _check_outputs(outputs, write_scenario)
     planner = planner or draft.planner or "fcost"
     planner_options = {**(draft.planner_options if planner == draft.planner else {}), **_parsed(planner_option)}

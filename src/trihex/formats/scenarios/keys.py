@@ -9,7 +9,7 @@ from pydantic import AfterValidator, Field
 
 from trihex.areas import ALIGNS, CLOCKS, CORNERS, COSTS, CROSSINGS, FOLLOWINGS, NEIGHBOURHOODS, TESSELLATIONS
 from trihex.formats.areas.options import UNKNOWNS
-from trihex.formats.schema import Cells, Count, Number, Points, Table, Whole, choice
+from trihex.formats.schema import Cells, Flow, Number, Points, Table, Whole, choice
 
 
 class FrameTable(Table):
@@ -55,9 +55,18 @@ class RulesTable(Table):
     waiting_cost: Whole | None = None
     crossing: Annotated[str, choice("it", CROSSINGS)] | None = None
     corners: Annotated[str, choice("it", CORNERS)] | None = None
-    destination_capacity: Count | None = None
+    destination_capacity: Flow | None = None
     clock: Annotated[str, choice("it", CLOCKS)] | None = None
     following: Annotated[str, choice("it", FOLLOWINGS)] | None = None
+
+
+class DoorTable(Table):
+    """[[doors]]: cells that only so many robots enter in a step, those of a zone or others."""
+
+    one_of = ("zone", "cells", "!")
+    zone: str | None = None
+    cells: Cells | None = None
+    capacity: Flow
 
 
 class RobotsTable(Table):
@@ -113,6 +122,7 @@ class ScenarioTable(Table):
     destinations: Cells | None = None
     destinations_in_metres: Points | None = None
     rules: RulesTable = RulesTable()
+    doors: list[DoorTable] = Field(default_factory=list)
     robots: RobotsTable = RobotsTable()
     planner: PlannerTable = PlannerTable()
     outputs: OutputsTable = OutputsTable()
