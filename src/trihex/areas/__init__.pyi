@@ -93,6 +93,11 @@ from .schedule import (
 from .seconds import (
     seconds_per_step as seconds_per_step,
 )
+from .start_times import (
+    check_distribution as check_distribution,
+    random_start_times as random_start_times,
+    start_times_of as start_times_of,
+)
 from .tessellation import (
     CLOCKS as CLOCKS,
     COSTS as COSTS,

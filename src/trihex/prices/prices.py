@@ -90,6 +90,18 @@ class Prices(Record):
             return None
         return read_only(self.price / scenario.waiting_cost * seconds_per_step(scenario.area, speed))
 
+    def told(self, price: int, speed: float = 1.0) -> str:
+        """Return a price in words: "3 min 20 s" where `seconds` has any, else units of time."""
+        scenario = self.plan.scenario
+        if scenario.area.frame is None or not self.has_equal_steps:
+            return f"{price} units of time"
+        seconds = price / scenario.waiting_cost * seconds_per_step(scenario.area, speed)
+        if seconds < 60:
+            return f"{seconds:.3g} s"
+        minutes, seconds = divmod(round(seconds), 60)
+        hours, minutes = divmod(minutes, 60)
+        return f"{hours} h {minutes} min" if hours else f"{minutes} min {seconds} s"
+
     def rows(self, speed: float = 1.0) -> list[dict[str, Any]]:
         """Return a row of plain values for each price; seconds only where there are any."""
         x, y = self.plan.scenario.area.cell_to_xy(self.cell)

@@ -21,7 +21,7 @@ from trihex.formats.areas.options import AreaOptions
 from trihex.formats.draft import Draft
 from trihex.formats.scenarios.keys import OUTPUT_PATHS, ScenarioTable
 from trihex.formats.schema import check_document
-from trihex.formats.starts.starts import read_starts
+from trihex.formats.starts.starts import read_start_times, read_starts
 from trihex.formats.text import Text
 from trihex.formats.toml import complaint, parse_toml
 
@@ -85,11 +85,13 @@ def _draft_of(
     destinations = attempt("destinations", lambda: cells(table.destinations))
     if table.destinations_in_metres is not None:
         destinations = attempt("destinations_in_metres", lambda: metres(table.destinations_in_metres))
+    own_times = None
     starts = attempt("robots.cells", lambda: cells(robots.cells))
     if robots.metres is not None:
         starts = attempt("robots.metres", lambda: metres(robots.metres))
     if (file := robots.file) is not None:
         starts = attempt("robots.file", lambda: read_starts(path.parent / file, area))
+        own_times = attempt("robots.file", lambda: read_start_times(path.parent / file)) if starts is not None else None
     doors = attempt("doors", lambda: [(door.zone or door.cells, door.capacity) for door in table.doors])
     has_robots = starts is not None or robots.random is not None
     return Draft(
@@ -102,6 +104,7 @@ def _draft_of(
         planner=table.planner.name,
         planner_options=table.planner.options,
         outputs=_outputs(table, path),
+        start_times=own_times if robots.start_times is None else robots.start_times,
         doors=(*draft.doors, *(doors or ())),
     )
 
@@ -166,6 +169,7 @@ def write_scenario_toml(
         "",
         "[robots]",
         f"cells = {_cells(area, scenario.robots)}",
+        f"start_times = {scenario.start_times.tolist()}" if scenario.has_start_times else "",
         f"seed = {scenario.seed}" if scenario.seed is not None else "",
     ]
     if planner:

@@ -16,6 +16,7 @@ import { Keys } from "./keys.js";
 import { Layers } from "./layers.js";
 import { LivePanel } from "./livepanel.js";
 import { Opening } from "./opening.js";
+import { Owners } from "./owners.js";
 import { Panel, layOut } from "./panel.js";
 import { Planning } from "./planning.js";
 import { Questions } from "./questions.js";
@@ -70,6 +71,7 @@ export class App {
     this.growing = new Growing(this);
     this.followed = new Followed(this);
     this.layers = new Layers(this);
+    this.owners = new Owners(this);
     this.results = new Results(this);
     this.readout = new Readout(this);
     this.stage = new Stage(this);
@@ -203,8 +205,8 @@ export class App {
   // ---- what is shown
 
   refresh() {
-    const { bar, tools, rules, draws, growing, planning, layers } = this;
-    for (const part of [bar, tools, rules, draws, growing, planning, layers]) part?.show();
+    const { bar, tools, rules, draws, growing, planning, layers, owners } = this;
+    for (const part of [bar, tools, rules, draws, growing, planning, layers, owners]) part?.show();
     this.#sayNext();
     this.livePanel?.show();
     this.stage.show();

@@ -38,6 +38,7 @@ export class Legend {
       entries.push(["moving", "moving"], ["waiting", "waiting"], ["final", "arriving"]);
       if (run.summary.delays) entries.push(["late", "late"]);
     } else if (doc.robots.length) entries.push(["moving", "robot"]);
+    if (this.app.panes[0].owns) entries.push(["moving", "owned by a robot", "cell owned"]);
     const isStranded = run?.summary.unreachable || stage.still?.robots.state.includes(STRANDED);
     if (!live && (isStranded || run?.summary.broken)) entries.push(["stranded", "cannot arrive"]);
     if (values && field.hasUnreached(values)) entries.push(["unreached", "not reached", "cell"]);
@@ -48,7 +49,8 @@ export class Legend {
     const { panes: [pane], layers } = this.app, { layer } = pane;
     const scale = (shades, words, hint) => {
       const ramp = h("i", { class: "ramp" });
-      ramp.style.background = `linear-gradient(to right, ${[0, 64, 128, 192, 255].map((i) => css(shades[i])).join(",")})`;
+      const stops = [0, 64, 128, 192, 255].map((i) => css(shades[i]));
+      ramp.style.background = `linear-gradient(to right, ${stops.join(",")})`;
       return [h("span", { title: hint }, "0 ", ramp, ` ${words}`)];
     };
     if (layer) return scale(palette.visits, `${amount(layer.most)} ${layer.unit}`, layers.hint);

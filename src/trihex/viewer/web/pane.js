@@ -4,6 +4,7 @@ import { NOT_REACHED, shapeOf, centreOf } from "./documents.js";
 import { DARK, LIGHT, between, packed, mix } from "./colours.js";
 import { darkenBarriers, drawGround } from "./ground.js";
 import { drawMarks } from "./marks.js";
+import { plotOwned } from "./owners.js";
 import { plotRobots } from "./robots.js";
 import { drawScaleBar } from "./scalebar.js";
 import { drawUnderground } from "./underground.js";
@@ -33,6 +34,7 @@ export class Pane {
     this.robots = null;
     this.values = null; // distance of each cell, or null for no field
     this.layer = null; // a map over the cells: values, most; or null
+    this.owns = false; // whether the cells that robots own are drawn
     this.directions = null;
     this.options = {}; // dark, growing, most (distance), arrows, numbers, steps (of directions)
     this.follow = -1;
@@ -215,6 +217,7 @@ export class Pane {
     if (!this.doc || !this.frame) return;
     if (this.isStale.base || this.isStale.map) this.#drawBase();
     this.frame32.set(this.base32);
+    if (this.owns && this.robots) plotOwned(this, fraction);
     if (this.robots) plotRobots(this, fraction);
     this.context.putImageData(this.frame, 0, 0);
     drawMarks(this, fraction);

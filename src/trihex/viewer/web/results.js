@@ -73,7 +73,8 @@ export class Results {
     const alone = app.canEdit ? null : note(ALONE);
     this.paths = h("input", { type: "checkbox", onchange: () => this.#showPaths() });
     this.pathsField = check(this.paths, "All paths");
-    this.element = section("Result", row(app.layers.element, this.pathsField), this.table, this.sets, this.sofar, this.chart.element, alone);
+    const shown = row(app.layers.element, this.pathsField, app.owners.element);
+    this.element = section("Result", shown, this.table, this.sets, this.sofar, this.chart.element, alone);
   }
 
   get hasPaths() { return this.paths.checked; }

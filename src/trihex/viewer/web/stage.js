@@ -173,7 +173,7 @@ export class Stage {
   }
 
   #showPane(i, run, growing, most) {
-    const { doc: own, runs, settings, theme, field, followed: { robot }, results, canEdit } = this.app;
+    const { doc: own, runs, settings, theme, field, followed: { robot }, results, canEdit, owners } = this.app;
     const pane = this.panes[i];
     const doc = run ? run.doc : own, { tessellation, neighbourhood } = doc.header;
     const isThere = run && robot >= 0 && robot < run.playback.count;
@@ -184,6 +184,7 @@ export class Stage {
       track: isThere ? run.playback.robot(robot).rows.map(({ cell }) => cell) : null,
       paths: run && results.hasPaths ? run.playback.paths() : null,
       crosses: [],
+      owns: owners.areShown(doc),
     });
     const things = `${plural(doc.robots.length, "robot")}, ${plural(doc.destinations.length, "destination")}`;
     const area = `${title(tessellation)} area of ${doc.width} by ${doc.height} cells, ${things}`;
