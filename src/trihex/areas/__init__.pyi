@@ -39,6 +39,7 @@ from .flow import (
     check_flow as check_flow,
     flow_from as flow_from,
     flow_in_words as flow_in_words,
+    plain_flow as plain_flow,
 )
 from .frame import (
     Frame as Frame,

@@ -66,6 +66,11 @@ def check_flow(parameter: str, value: object) -> Fraction:
     return number
 
 
+def plain_flow(flow: int | Fraction | None) -> int | float | None:
+    """Return a flow as a plain number, for JSON."""
+    return float(flow) if isinstance(flow, Fraction) else flow
+
+
 def flow_in_words(flow: Fraction, area: Area, step_seconds: float | None = None) -> str:
     """Return a flow as text: robots a second where it is known how long a step lasts, else a step."""
     if step_seconds is not None:

@@ -83,19 +83,19 @@ class Whole(click.ParamType):  # type: ignore[type-arg]
 
 
 class Flow(click.ParamType):  # type: ignore[type-arg]
-    """Robots a step, or in metres a second, as in ``0.5``, ``1/3`` or ``1.6/s``; kept as text."""
+    """Robots a step, or in metres a second, as in ``0.5``, ``1/3`` or ``1.6/s``."""
 
     name = "flow"
 
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
-        """Return the text."""
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return the text, or a whole number."""
         from trihex.areas import check_flow
 
         try:
             check_flow(_name_of(param), value)
         except TrihexError as error:
             raise click.UsageError(str(error), ctx) from None
-        return str(value)
+        return value if (number := _whole(str(value))) is None else number
 
 
 class FlowOf(Flow):
