@@ -7,6 +7,13 @@ export function undergroundOf({ ground }, arrays, barriers) {
   return ground ? { ...ground, occupied: arrays.ground.slice(), barriers } : null;
 }
 
+// What stands beneath a document that says nothing of it, such as that of a plan, if it is of the place of another one.
+export function groundFor(doc, other) {
+  const placeOf = ({ header: { frame, tessellation }, height, width }) =>
+    JSON.stringify([frame, tessellation, height, width]);
+  return doc.header.frame && other?.ground && placeOf(doc) === placeOf(other) ? other.ground : null;
+}
+
 // Write walls as they are over the cells; barriers where nothing stands are places where robots do not fit. Cells that
 // a hand has changed since are drawn as such.
 export function drawUnderground({ doc, view, base32, cellOfPixel, canvas: { width, height } }, palette) {
