@@ -309,7 +309,7 @@ def read_judged(
     is_same = scenario == plan.scenario
     if is_same and scenario.area.ground is None:
         return plan
-    return replace(plan, scenario=scenario, optimal=plan.optimal and is_same)  # the ground is no part of what is the same
+    return replace(plan, scenario=scenario, optimal=plan.optimal and is_same)  # the ground is no part of it
 
 
 def read_played(path: Path, area: Path | None, options: dict[str, Any], **more: Any) -> Motion:
