@@ -34,6 +34,11 @@ KERNELS_OF: dict[str, tuple[str, ...]] = {
     "optimal_crowd": (*_OPTIMUM, "optimum.serving"),
     "optimal_earliest": (*_OPTIMUM, *_FCOST, "optimum.earliest", "optimum.laid"),
     "certificate": (*_FIELD, "areas.moves", "fields.steps", "optimum.laid", "optimum.tolls", "plans.replay"),
+    "prices": (
+        *_OPTIMUM,
+        *("bounds.cuts", "optimum.doors", "optimum.earliest", "optimum.laid", "optimum.late"),
+        *("optimum.opening", "optimum.tolls", "optimum.variation"),
+    ),
     "straight": (*_ASTAR, "planners.straight"),
     "audit": ("judging.audit", "plans.replay"),
     "timely audit": ("judging.timed", "plans.replay"),
