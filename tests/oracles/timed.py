@@ -133,7 +133,9 @@ class TimedProgram:
                 limit = self.openings(*name[1:])
                 limit = np.inf if limit is None else limit
             if len(deeds) > limit:
-                limits[tuple(deeds)] = min(limit, limits.get(tuple(deeds), limit))  # mostly the same as half a tick before
+                limits[tuple(deeds)] = min(
+                    limit, limits.get(tuple(deeds), limit)
+                )  # mostly the same as half a tick before
         rows = [([(deed, 1) for deed in deeds], -np.inf, limit) for deeds, limit in limits.items()]
         starts = set(self.start_of_robot.values())
         for (cell, time), signed in self.balance.items():

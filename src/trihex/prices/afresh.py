@@ -79,8 +79,9 @@ class AfreshVariations:
         barriers.reshape(-1)[cell] = not barriers.reshape(-1)[cell]
         area = Area(scenario.area.tessellation, barriers, frame=scenario.area.frame)
         destinations = np.append(scenario.destinations, cell) if is_door else scenario.destinations
-        robots = scenario.robots[scenario.robots != cell]
-        return replace(scenario, area=area, destinations=destinations, robots=robots)
+        kept = scenario.robots != cell
+        robots, start_times = scenario.robots[kept], scenario.start_times[kept]
+        return replace(scenario, area=area, destinations=destinations, robots=robots, start_times=start_times)
 
     def _least(self, scenario: Scenario) -> int:
         plan = make_plan(scenario, "optimal", memory_limit=self._memory_limit)
