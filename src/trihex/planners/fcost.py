@@ -69,9 +69,7 @@ def _run(n_scheme: NScheme, rule: str, keeps_actions: bool, progress: Progress |
     if rule == "paper" and scenario.has_start_times:
         raise PlanError("rule must not be 'paper' where there are start_times: in the paper all robots begin at once")
     if rule == "paper" and scenario.has_flows:
-        raise PlanError(
-            "rule must not be 'paper' where doors have a flow: in the paper nobody waits for a door to open"
-        )
+        raise PlanError("rule must not be 'paper' where doors have a flow: in the paper none is ever shut")
     if rule == "lanes":
         return _simulated(make_lanes(n_scheme).d_scheme, "aside", keeps_actions, progress)
     d_scheme = make_d_scheme(n_scheme)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from math import ceil, sqrt
 from typing import Annotated, Any
 
@@ -96,7 +97,7 @@ def document_of(draft: Draft) -> Bundle:
         "corners": draft.corners or "allow",
         "clock": draft.clock or area.tessellation.clock,
         "following": draft.following or usual_following(area.tessellation, frame),
-        "destination_capacity": None if draft.destination_capacity is None else int(draft.destination_capacity),
+        "destination_capacity": _whole_capacity(draft),
         "seed": None if draft.seed is None else int(draft.seed),
     }
     if draft.has_start_times:
@@ -182,8 +183,14 @@ def draft_of_document(header: Any, arrays: dict[str, NDArray[Any]]) -> Draft:
 
 
 def _times_of(robots: NDArray[np.int32], pairs: list[list[int]]) -> NDArray[np.int64]:
-    time_of_cell = dict(pairs)
+    time_of_cell: dict[int, int] = dict(tuple(pair) for pair in pairs)  # type: ignore[misc]
     return np.array([time_of_cell.get(cell, 0) for cell in robots.tolist()], dtype=np.int64)
+
+
+def _whole_capacity(draft: Draft) -> int | None:
+    """Return how many robots enter a destination at a time; of a flow, which the page does not know, at most."""
+    capacity = draft.destination_capacity
+    return None if capacity is None else ceil(Fraction(capacity))
 
 
 def _cells(cells: NDArray[np.int64] | None) -> NDArray[np.int32]:
