@@ -45,6 +45,8 @@ class TimedProgram:
         self.reachable = self.rules.reachable()
         starts = enumerate(self.rules.places(scenario.robots))
         self.start_of_robot = {r: at for r, at in starts if at in self.reachable - self.destinations}
+        times = scenario.start_times * finer
+        self.may_leave = {at: int(times[r]) for r, at in self.start_of_robot.items()}
         self.moves = {at: list(self._moves_from(at)) for at in self.reachable - self.destinations}
         self.deeds, self.cost, self.limit, self.openings = [], [], {}, Openings(scenario)
         self.members, self.balance = defaultdict(list), defaultdict(list)
@@ -91,6 +93,8 @@ class TimedProgram:
         for cell, moves in self.moves.items():
             for begin in range(soonest.get(cell, self.end), self.end):
                 for other, price, duration in [(cell, self.scenario.waiting_cost, 1), *moves]:
+                    if other != cell and begin < self.may_leave.get(cell, 0):
+                        continue  # the robot that starts there stands, and fills it
                     if begin + duration + needed[other] <= self.end:
                         self._add(cell, other, begin, price, duration)
 

@@ -338,7 +338,10 @@ def read_judged(
     if options["destination"]:  # whoever names a barrier here is wrong, not the plan
         replace(draft, robots=None).complete()
     scenario = claimed(draft.complete) if for_judge else draft.complete()
-    return plan if scenario == plan.scenario else replace(plan, scenario=scenario, optimal=False)
+    is_same = scenario == plan.scenario
+    if is_same and scenario.area.ground is None:
+        return plan
+    return replace(plan, scenario=scenario, optimal=plan.optimal and is_same)  # the ground is no part of it
 
 
 def read_played(path: Path, area: Path | None, options: dict[str, Any], **more: Any) -> Motion:

@@ -306,8 +306,8 @@ class Desk:
     def _layer(self, request: ask.MakeLayer, call: Call) -> Bundle:
         check_choice("layer", request.layer, LAYERS, FormatError)
         plan = self.shelf.report(request.plan).plan
-        prepare_for(call, *LAYERS[request.layer].uses)
-        return make_layer(request.layer, plan)
+        prepare_for(call, *LAYERS[request.layer].uses, scenario=plan.scenario)
+        return make_layer(request.layer, plan, call.progress("pricing"))
 
     def _shown(self, plan: Plan, seconds: dict[str, float], call: Call) -> Bundle:
         """Return the plan with the bounds that are had at once; the page asks for a better one while it plays."""
