@@ -11,6 +11,7 @@ from trihex.errors import TooLargeError
 from trihex.fields import NScheme
 from trihex.kernels.codes import NOT_REACHED, WAIT
 from trihex.memory import GIB, limit_or_default
+from trihex.planners.estimates import Estimates
 
 _BUDGET = 200_000  # nodes looked at in one call of a kernel
 
@@ -67,6 +68,7 @@ class Reservations:
             ends=ends,
             capacity=scenario.entry_limit,
         )
+        self._estimates = Estimates(self._terrain)
         self._state = np.zeros(astar.STATE_SIZE, dtype=np.int64)
         self._make_lists(1 << 12)
 
@@ -106,13 +108,11 @@ class Reservations:
         TooLargeError
             If they would take more than the limit.
         """
-        per_step, size, ends = max(1, self._reserved.per_tick), self.distance.size, self._reserved.ends
-        have = self._reserved.rows // per_step
+        size, ends, have = self.distance.size, self._reserved.ends, self._steps
         if steps <= have:
             return
         steps = max(steps, have + have // 2)
-        rows = steps * per_step
-        need = rows * (size + 4 * ends) + steps * size * self._forbids
+        rows, need = steps * max(1, self._reserved.per_tick), self._bytes_of(steps)
         if need > self._limit:
             raise TooLargeError(
                 f"reservations would take {need / GIB:.1f} GiB ({steps} steps of {size} cells), more than "
@@ -124,6 +124,17 @@ class Reservations:
             vertex=_grown(self._reserved.vertex, steps * size * self._forbids),
             entries=_grown(self._reserved.entries, rows * ends),
         )
+
+    @property
+    def _steps(self) -> int:
+        """How many steps the tables have rows for."""
+        return int(self._reserved.rows // max(1, self._reserved.per_tick))
+
+    def _bytes_of(self, steps: int) -> int:
+        """Return what tables for so many steps take."""
+        size = self.distance.size
+        rows = steps * max(1, self._reserved.per_tick)
+        return int(rows * (size + 4 * self._reserved.ends) + steps * size * self._forbids)
 
     def hold(self, start: int, start_time: int) -> None:
         """Reserve the site of a robot that stands there until it may begin to move."""
@@ -141,14 +152,16 @@ class Reservations:
         """
         from trihex.planners.kernels import astar
 
+        self._estimates.make_room(self._steps, self._limit - self._bytes_of(self._steps))
         status = astar.BUDGET_SPENT
         while status in (astar.BUDGET_SPENT, astar.LIST_FULL):
             if status == astar.LIST_FULL:
                 self._make_lists(2 * self._nodes.site.size)
-            space = (self._nodes, self._heap, self._state)
+            space = (self._estimates.tables, self._nodes, self._heap, self._state)
             status = astar.search(start, start_time, self._terrain, self._reserved, is_shut, *space, _BUDGET)
         if status == astar.NOTHING:
             return None
+        self._estimates.learn(self._nodes, self._state, for_good=is_shut.size == 0)
         actions = np.full(int(self._nodes.step[self._state[astar.GOAL]]), WAIT, dtype=np.uint8)
         return actions[actions.size - astar.write_way(self._nodes, self._state, actions) - start_time :].copy()
 
@@ -165,6 +178,8 @@ class Reservations:
         """Free a way that was reserved."""
         from trihex.planners.kernels import reservations
 
+        if self._estimates.tables.rows:
+            self._estimates.forget()
         reservations.unreserve(start, actions, self._terrain, self._reserved)
 
     def straighten_way(
