@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-# Nothing is learned before searches have had so many nodes (a second or two), so that the plans of small crowds stay what
+# Nothing is learned before searches have had so many nodes (a second or two), so that plans of small crowds stay what
 # they were; then ways of so many steps are worked out as soon as there has been a node for each 8 of their entries.
 _PATIENCE, _ENTRIES_A_NODE = 4_000_000, 8
 _AT_ONCE = 1_000_000  # entries, in one call of a kernel
