@@ -17,6 +17,7 @@ from .bounds import (
     LowerBound as LowerBound,
     cut_bound as cut_bound,
     distance_bound as distance_bound,
+    door_bound as door_bound,
     make_lower_bound as make_lower_bound,
     slot_bound as slot_bound,
 )

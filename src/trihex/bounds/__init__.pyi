@@ -2,10 +2,11 @@ from .arrivals import (
     EarliestArrivals as EarliestArrivals,
     arrivals_bound as arrivals_bound,
 )
+from .bound import LowerBound as LowerBound
 from .bounds import (
-    LowerBound as LowerBound,
     cut_bound as cut_bound,
     distance_bound as distance_bound,
     make_lower_bound as make_lower_bound,
     slot_bound as slot_bound,
 )
+from .spreading import door_bound as door_bound

@@ -36,7 +36,7 @@ KERNELS_OF: dict[str, tuple[str, ...]] = {
     "straight": (*_ASTAR, "planners.straight"),
     "audit": ("judging.audit", "plans.replay"),
     "timely audit": ("judging.timed", "plans.replay"),
-    "bound": (*_BOUND, "bounds.steps", "bounds.units"),
+    "bound": (*_BOUND, "bounds.doors", "bounds.steps", "bounds.units"),
     "execution": _EXECUTION,
     "trial": (*_EXECUTION, "running.sensing"),
     "dependencies": ("areas.moves", "plans.implied", "plans.rows", "plans.replay"),
