@@ -121,7 +121,7 @@ def test_no_bound_exceeds_the_optimum(scenario):
     optimum = least_total_time(scenario, 8 + scenario.robot_count)
     if optimum is None:  # so many steps are seldom needed, and more of them cost time
         optimum = least_total_time(scenario, scenario.area.free_count + scenario.robot_count)
-    assert max(*values(scenario), th.door_bound(th.make_n_scheme(scenario)).value) <= optimum
+    assert max(*values(scenario), th.queue_bound(th.make_n_scheme(scenario)).value) <= optimum
 
 
 def all_nodes(demand):

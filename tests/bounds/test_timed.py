@@ -37,7 +37,7 @@ def test_bounds_below_the_optimum_and_planners_above(time, share):
         _, relaxed, least, _ = solve_timed(scenario)
         assert relaxed <= least + 1e-6
         n_scheme = th.make_n_scheme(scenario)
-        door = th.door_bound(n_scheme).value
+        door = th.queue_bound(n_scheme).value
         assert max(*values(scenario), door) <= least, seed
         best = max(*values(scenario), door if scenario.destinations.size > 1 else 0)
         assert th.make_lower_bound(n_scheme).value == best

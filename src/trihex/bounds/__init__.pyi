@@ -9,4 +9,7 @@ from .bounds import (
     make_lower_bound as make_lower_bound,
     slot_bound as slot_bound,
 )
-from .spreading import door_bound as door_bound
+from .chokes import (
+    choke_cells as choke_cells,
+)
+from .spreading import queue_bound as queue_bound

@@ -21,7 +21,7 @@ class Approaches(Record):
     robots : list of int32 arrays
         Of each destination: robots of the demand, the nearest first.
     lengths : list of int32 arrays
-        How far it is for each of them: ticks, or what else the durations of the moves were.
+        How far it is for each of them: ticks from when it may begin to move, or what else the moves were said to take.
     detour : int
         For any other robot the way there is longer than to its nearest destination by more than this.
     visits : int

@@ -12,18 +12,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.bounds.bound import LowerBound
-from trihex.bounds.costs import least_cost
+from trihex.bounds.costs import least_cost, sum_of_distances, waits_before_starts
 from trihex.bounds.cuts import Cut, find_cuts
 from trihex.bounds.demand import Demand, make_demand
+from trihex.bounds.doors import arrivals_past_doors, hold_up_at_exits
 from trihex.bounds.gates import GateNetwork, make_gate_network
 from trihex.bounds.meetings import find_meeting_nodes
 from trihex.bounds.queues import queue_past_cuts
 from trihex.bounds.rhythm import entry_headways, queue_up
 from trihex.bounds.serving import least_arrivals
-from trihex.bounds.spreading import door_bound
+from trihex.bounds.spreading import queue_bound
 from trihex.errors import PlanError, check_type, check_whole
 from trihex.fields import NScheme
-from trihex.kernels.codes import NOT_REACHED
 
 # What the cut bound may cost: ways into the destinations times nodes, sites visited by all searches, slots in memory
 # (some 50 bytes each), looks at slots. Together some seconds at worst, a fraction of what a plan of that size costs.
@@ -32,7 +32,7 @@ _MOST_VISITS = 30_000_000
 _VISITS_PER_ROBOT = 3000  # few robots on a large area: 14 gates in place of 33 leave the bound within 0.001 %
 _MOST_SLOTS = 5_000_000
 _MOST_LOOKS = 50_000_000
-_MOST_CELLS = 10_000_000  # the door bound visits each several times; it takes 5 s at 13 million, a million robots
+_MOST_CELLS = 10_000_000  # the queue bound visits each several times; it takes 5 s at 13 million, a million robots
 _MOST_SHIFTS = 5  # of the windows of gates, where they are longer than a step
 
 
@@ -50,7 +50,7 @@ def make_lower_bound(n_scheme: NScheme, *, progress: Callable[[int, int], None] 
     makers = [distance_bound, slot_bound, cut_bound]
     scenario = n_scheme.scenario
     if scenario.destinations.size > 1 and scenario.area.free_count <= _MOST_CELLS:
-        makers.append(door_bound)
+        makers.append(queue_bound)
     bounds = []
     for make in makers:
         bounds.append(make(n_scheme))
@@ -60,10 +60,10 @@ def make_lower_bound(n_scheme: NScheme, *, progress: Callable[[int, int], None] 
 
 
 def distance_bound(n_scheme: NScheme) -> LowerBound:
-    """Sum of the N-scheme's values: nobody ever waits."""
+    """Sum of the N-scheme's values: nobody ever waits but until its start time."""
     check_type("n_scheme", n_scheme, NScheme)
-    distance = n_scheme.distance_of_cell(n_scheme.scenario.robots).astype(np.int64)
-    return LowerBound("distance", int(distance[distance != NOT_REACHED].sum()))
+    scenario = n_scheme.scenario
+    return LowerBound("distance", sum_of_distances(n_scheme) + scenario.waiting_cost * waits_before_starts(n_scheme))
 
 
 def slot_bound(n_scheme: NScheme) -> LowerBound:
@@ -76,6 +76,7 @@ def slot_bound(n_scheme: NScheme) -> LowerBound:
     demand = make_demand(n_scheme)
     slots = np.sort(demand.steps)
     queue_up(slots, entry_headways(demand.nodes))
+    hold_up_at_exits(demand, slots)
     return LowerBound("slot", least_cost(n_scheme, int(slots.sum())))
 
 
@@ -104,6 +105,9 @@ def _steps_past_gates(demand: Demand, most_gates: int, progress: Callable[[int, 
     if entries.size * demand.nodes.count <= _MOST_SENT:
         cuts = find_cuts(demand, most_searches=_MOST_VISITS // (4 * free_cells) + 1)
     queued = queue_past_cuts(demand, cuts, entries)
+    if demand.scenario.has_flows:
+        np.maximum(queued, arrivals_past_doors(demand), out=queued)
+        hold_up_at_exits(demand, queued)
     visits = min(_MOST_VISITS, _VISITS_PER_ROBOT * demand.sites.size)
     gates = _choose_gates(demand, cuts, min(most_gates, visits // free_cells))
     horizon = int(queued.max(initial=0)) * 5 // 4 + 100
@@ -141,15 +145,24 @@ def _arrivals_past_gates(
     duration = demand.scenario.duration_of_direction
     left = np.full(demand.sites.size - served.size, last + 1 - int(duration.max() - duration.min()))
     queue_up(left, entries)
+    hold_up_at_exits(demand, left)
     return np.concatenate([served, np.maximum(left, last + 1)])
 
 
 def _choose_gates(demand: Demand, cuts: list[Cut], most: int) -> NDArray[np.int32]:
     """Return up to `most` nodes: the cut for all robots, those with the longest queues, the nodes where most meet."""
-    gates = np.empty(0, dtype=np.int32)
+    gates = _doors(demand, most // 2)
     for cut in cuts[-1:] + sorted(cuts[:-1], key=lambda cut: -cut.behind.size / cut.width):
         more = np.union1d(gates, cut.nodes)
         if more.size <= most:
             gates = more
     more_gates = min(most - gates.size, most // 2)
     return np.union1d(gates, find_meeting_nodes(demand, more_gates)) if more_gates > 3 else gates
+
+
+def _doors(demand: Demand, most: int) -> NDArray[np.int32]:
+    """Return the doors that robots can pass, if they are no more than so many."""
+    sites = np.sort(demand.scenario.area.layout.cell_to_site(demand.scenario.schedule.cells)).astype(np.int32)
+    sites = sites[demand.nodes.steps_of_site[sites] >= 0]
+    is_few = demand.scenario.is_stepwise and demand.nodes.places(sites).sum() <= most
+    return sites if is_few else sites[:0]

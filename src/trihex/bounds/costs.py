@@ -3,7 +3,8 @@
 Where the clock is "costs" t_r is the tick of arrival; all bounds are bounds on arrivals then. Else a bound on *steps*
 becomes one on costs so: let m be the least that a step can cost, min(w_t, cheapest move), and 0 <= u <= m. Charge u for
 each step; what is left of a move is its cost less u, and of a wait w_t less u, neither negative. So t_r >= u * (steps
-of r) + (least sum of what is left on a way of r), for every u alike.
+of r) + (least sum of what is left on a way of r), for every u alike. Where r may not begin to move before step s, it
+has waited s times, and what is left of these waits is paid, too.
 """
 
 from __future__ import annotations
@@ -23,7 +24,21 @@ def least_cost(n_scheme: NScheme, steps: int) -> int:
     scenario = n_scheme.scenario
     if scenario.clock == "costs":
         return steps
-    return max(share * steps + _left(n_scheme, share) for share in shares(scenario))
+    forced = waits_before_starts(n_scheme)
+    return max(
+        share * steps + (scenario.waiting_cost - share) * forced + _left(n_scheme, share) for share in shares(scenario)
+    )
+
+
+def sum_of_distances(n_scheme: NScheme) -> int:
+    """Return the sum of the distances of the robots that can arrive."""
+    return int(_at_robots(n_scheme, n_scheme.distance_of_site).sum())
+
+
+def waits_before_starts(n_scheme: NScheme) -> int:
+    """Return how many steps (ticks) robots that can arrive wait in all until they may begin to move."""
+    distance = n_scheme.distance_of_cell(n_scheme.scenario.robots)
+    return int(n_scheme.scenario.start_times[(distance > 0) & (distance != NOT_REACHED)].sum())
 
 
 def shares(scenario: Scenario) -> list[int]:
@@ -41,7 +56,7 @@ def _left(n_scheme: NScheme, share: int) -> int:
     """Return the sum over robots of the least sum of what is left of the costs on the way to a destination."""
     cost = n_scheme.scenario.area.tessellation.cost_of_direction
     if (cost == cost[0]).all():
-        return int(_at_robots(n_scheme, n_scheme.distance_of_site).sum()) * int(cost[0] - share) // int(cost[0])
+        return sum_of_distances(n_scheme) * int(cost[0] - share) // int(cost[0])
     return int(_at_robots(n_scheme, left_field(n_scheme, share)).sum())
 
 

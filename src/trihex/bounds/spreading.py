@@ -11,7 +11,7 @@ from trihex.bounds.approaches import Approaches, find_approaches, find_cheap_app
 from trihex.bounds.bound import LowerBound
 from trihex.bounds.costs import left_field, shares
 from trihex.bounds.demand import Demand, make_demand
-from trihex.bounds.doors import Doors, find_doors
+from trihex.bounds.mouths import Mouths, find_mouths
 from trihex.bounds.queueing import Tolls, find_tolls
 from trihex.bounds.rhythm import entry_headways, queue_up
 from trihex.errors import check_type
@@ -25,8 +25,8 @@ _MOST_VISITS = 40_000_000
 _MOST_LOOKS = 100_000_000
 
 
-def door_bound(n_scheme: NScheme) -> LowerBound:
-    """Find the least sum of times if robots hinder each other only at the doors of the destinations.
+def queue_bound(n_scheme: NScheme) -> LowerBound:
+    """Find the least sum of times if robots hinder each other only at the mouths of the destinations.
 
     Each destination is entered by so many robots in a step and no more: its capacity, the ways into it, or the throat
     around them; whoever would have to queue there may walk to another one.
@@ -35,21 +35,21 @@ def door_bound(n_scheme: NScheme) -> LowerBound:
     --------
     >>> from trihex import Area, Scenario, make_n_scheme
     >>> area = Area("square", [[0] * 12])
-    >>> door_bound(make_n_scheme(Scenario(area, [0, 11], [1, 2, 3, 4]))).value
+    >>> queue_bound(make_n_scheme(Scenario(area, [0, 11], [1, 2, 3, 4]))).value
     60
     """
     check_type("n_scheme", n_scheme, NScheme)
     demand = make_demand(n_scheme)
     if demand.sites.size == 0:
-        return LowerBound("door", 0)
-    doors = find_doors(demand)
-    approaches, tolls = _queue_up(demand, doors)
-    return LowerBound("door", max(_least_cost(n_scheme, demand, doors, approaches, one) for one in tolls))
+        return LowerBound("queue", 0)
+    mouths = find_mouths(demand)
+    approaches, tolls = _queue_up(demand, mouths)
+    return LowerBound("queue", max(_least_cost(n_scheme, demand, mouths, approaches, one) for one in tolls))
 
 
-def _queue_up(demand: Demand, doors: Doors) -> tuple[Approaches, list[Tolls]]:
+def _queue_up(demand: Demand, mouths: Mouths) -> tuple[Approaches, list[Tolls]]:
     """Return approaches that are wide enough, and the tolls for windows as wide as each headway there is."""
-    widths: list[int] = np.unique(np.concatenate(doors.headways)).tolist()
+    widths: list[int] = np.unique(np.concatenate(mouths.headways)).tolist()
     steps = np.sort(demand.steps)
     queued = steps.copy()
     queue_up(queued, entry_headways(demand.nodes))
@@ -59,12 +59,12 @@ def _queue_up(demand: Demand, doors: Doors) -> tuple[Approaches, list[Tolls]]:
     while True:
         approaches = find_approaches(demand, detour)
         visits += approaches.visits
+        looks, starts = _MOST_LOOKS // len(widths), demand.start_times
         tolls = [
-            find_tolls(approaches, doors.is_inside, doors.places(width), width, _MOST_LOOKS // len(widths))
-            for width in widths
+            find_tolls(approaches, starts, mouths.is_inside, mouths.places(width), width, looks) for width in widths
         ]
-        is_held_up = [_pays(demand, doors, approaches, one) == _farther(demand, approaches, one) for one in tolls]
-        may_gain = all(held_up[~doors.is_inside].any() for held_up in is_held_up)
+        is_held_up = [_pays(demand, mouths, approaches, one) == _farther(demand, approaches, one) for one in tolls]
+        may_gain = all(held_up[~mouths.is_inside].any() for held_up in is_held_up)
         if not may_gain or visits + 4 * approaches.visits > _MOST_VISITS:
             return approaches, tolls
         detour *= 2
@@ -76,24 +76,24 @@ def _farther(demand: Demand, approaches: Approaches, tolls: Tolls) -> NDArray[np
 
 
 def _pays(
-    demand: Demand, doors: Doors, approaches: Approaches, tolls: Tolls, left: _Left | None = None
+    demand: Demand, mouths: Mouths, approaches: Approaches, tolls: Tolls, left: _Left | None = None
 ) -> NDArray[np.int64]:
     """Return how many ticks each robot pays at least, tolls included; or what they and what is `left` cost."""
     share = 1 if left is None else left.share
-    pays = share * np.where(doors.is_inside, demand.steps, _farther(demand, approaches, tolls))
+    pays = share * np.where(mouths.is_inside, demand.steps, _farther(demand, approaches, tolls))
     if left is not None:
         pays += left.nearest
-    for door, (robots, ticks) in enumerate(zip(approaches.robots, approaches.lengths, strict=True)):
-        pays_here = share * tolls.pays(door, ticks)
+    for mouth, (robots, lengths) in enumerate(zip(approaches.robots, approaches.lengths, strict=True)):
+        pays_here = share * tolls.pays(mouth, lengths + demand.start_times[robots])
         if left is not None:
-            pays_here += left.at_door(door)[robots]
+            pays_here += left.at_mouth(mouth)[robots]
         pays[robots] = np.minimum(pays[robots], pays_here)
     return pays
 
 
-def _least_cost(n_scheme: NScheme, demand: Demand, doors: Doors, approaches: Approaches, tolls: Tolls) -> int:
+def _least_cost(n_scheme: NScheme, demand: Demand, mouths: Mouths, approaches: Approaches, tolls: Tolls) -> int:
     """Return what all robots pay at least, in costs, less the tolls."""
-    ticks = _pays(demand, doors, approaches, tolls)
+    ticks = _pays(demand, mouths, approaches, tolls)
     if demand.scenario.clock == "costs":
         return int(ticks.sum()) - tolls.total
     # The share that is best if what is left is that on the way to the nearest destination. All that a move costs it is
@@ -107,8 +107,9 @@ def _least_cost(n_scheme: NScheme, demand: Demand, doors: Doors, approaches: App
         if share < cheapest or len(choices) == 1
     ]
     left = max(parts, key=lambda left: left.share * (int(ticks.sum()) - tolls.total) + int(left.nearest.sum()))
-    pays = _pays(demand, doors, approaches, tolls, left)
-    return int(pays.sum()) - left.share * tolls.total
+    pays = _pays(demand, mouths, approaches, tolls, left)
+    waits = (demand.scenario.waiting_cost - left.share) * int(demand.start_times.sum())
+    return int(pays.sum()) + waits - left.share * tolls.total
 
 
 class _Left:
@@ -119,9 +120,9 @@ class _Left:
         self.cost = demand.scenario.area.tessellation.cost_of_direction - np.int32(share)
         self.is_equal = bool((self.cost == self.cost[0]).all())
         self.field = None if self.is_equal else left_field(n_scheme, share)
-        at_robots = demand.steps if self.field is None else self.field[demand.sites].astype(np.int64)
+        at_robots = demand.nodes.steps_of_site[demand.sites] if self.field is None else self.field[demand.sites]
         #: Of each robot on its way to the nearest destination.
-        self.nearest = at_robots * self.scale
+        self.nearest = at_robots.astype(np.int64) * self.scale
 
     @property
     def scale(self) -> int:
@@ -135,8 +136,8 @@ class _Left:
             return self.steps
         return find_cheap_approaches(self.demand, self.cost, self.field, self.longest * int(self.cost.max()))
 
-    def at_door(self, door: int) -> NDArray[np.int64]:
+    def at_mouth(self, mouth: int) -> NDArray[np.int64]:
         """Return the least that is left for each robot if it goes to this destination."""
         left = self.nearest + (self.approaches.detour + 1) * self.scale
-        left[self.approaches.robots[door]] = self.approaches.lengths[door].astype(np.int64) * self.scale
+        left[self.approaches.robots[mouth]] = self.approaches.lengths[mouth].astype(np.int64) * self.scale
         return left
