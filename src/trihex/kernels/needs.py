@@ -42,7 +42,7 @@ KERNELS_OF: dict[str, tuple[str, ...]] = {
     "straight": (*_ASTAR, "planners.straight"),
     "audit": ("judging.audit", "plans.replay"),
     "timely audit": ("judging.timed", "plans.replay"),
-    "bound": (*_BOUND, "bounds.steps", "bounds.units"),
+    "bound": (*_BOUND, "bounds.mouths", "bounds.steps", "bounds.units"),
     "slot_bound": ("fields.steps", "bounds.steps"),
     "execution": _EXECUTION,
     "trial": (*_EXECUTION, "running.sensing"),
