@@ -12,7 +12,15 @@ _FIELD = ("fields.front",)
 _DIRECTIONS = (*_FIELD, "areas.moves", "fields.directions")
 _REPAIR = (*_DIRECTIONS, "fields.repair", "fields.changing")
 _GREEDY = (*_DIRECTIONS, "planners.greedy", "planners.cells", "planners.rows", "plans.replay")
-_FCOST = (*_GREEDY, *_REPAIR, "planners.fcost", "planners.slots", "planners.lanes", "planners.laying")
+_FCOST = (
+    *_GREEDY,
+    *_REPAIR,
+    "planners.fcost",
+    "planners.slots",
+    "planners.lanes",
+    "planners.laying",
+    "planners.catchments",
+)
 _TIMELY = (*_DIRECTIONS, "planners.timely", "planners.tick_rows", "planners.slots", "plans.replay")
 _ASTAR = (*_FIELD, "areas.moves", "planners.astar", "planners.estimates", "planners.reservations", "plans.replay")
 _OPTIMUM = (*_FIELD, "areas.moves", "fields.steps", "optimum.paths", "optimum.single", "plans.replay")
