@@ -14,8 +14,8 @@ from trihex.areas import (
     Area,
     Door,
     Scenario,
-    doors_from,
     flow_from,
+    make_doors,
     random_robots,
     random_start_times,
     seconds_per_step,
@@ -129,13 +129,13 @@ class Draft(Record):
 
     def _flows(self) -> tuple[int | Fraction | None, tuple[Door, ...]]:
         """Return the capacity of destinations and the doors, by how long a step lasts as outputs say it."""
-        area, lasts = self.area if self.clock is None else self.area.with_clock(self.clock), None
-        if area.frame is not None:
-            lasts = seconds_per_step(area, **{n: self.outputs[n] for n in ("speed", "turn_time") if n in self.outputs})
+        area = self.area if self.clock is None else self.area.with_clock(self.clock)
+        pace = {n: v for n, v in self.outputs.items() if n in ("speed", "turn_time")} if area.frame is not None else {}
         capacity = self.destination_capacity
         if capacity is not None:
+            lasts = None if area.frame is None else seconds_per_step(area, **pace)
             capacity = flow_from("destination_capacity", capacity, area, lasts)
-        return capacity, doors_from(area, self.doors, lasts)
+        return capacity, make_doors(area, self.doors, **pace)
 
 
 def _draw(scenario: Scenario, count: int, seed: int) -> NDArray[np.int64]:
