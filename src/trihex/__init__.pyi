@@ -22,6 +22,7 @@ from .bounds import (
     cut_bound as cut_bound,
     distance_bound as distance_bound,
     make_lower_bound as make_lower_bound,
+    queue_bound as queue_bound,
     slot_bound as slot_bound,
 )
 from .errors import (
