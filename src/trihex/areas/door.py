@@ -79,14 +79,15 @@ def make_doors(area: Area, given: Any, *, speed: float = 1.0, turn_time: float =
     Fraction(2, 5)
     """
     step_seconds = None if area.frame is None else seconds_per_step(area, speed, turn_time)
-    doors = tuple(_door_from(area, one, step_seconds) for one in _pairs(given))
+    given = list(_pairs(given))
+    doors = tuple(_door_from(area, one, step_seconds) for one in given)
     seen: dict[int, str] = {}
     for number, door in enumerate(doors):
         who = f"door {door.name!r}" if door.name else f"door {number}"
         if not 0 < door.cells.size <= MOST_CELLS:
             raise ScenarioError(f"{who} must have 1 to {MOST_CELLS} free cells, not {door.cells.size}")
         barred = door.cells[area.is_barrier(door.cells)]
-        if barred.size:
+        if barred.size and not isinstance(given[number], Door):  # which may have been blocked meanwhile
             raise ScenarioError(f"{who} must have free cells; {area.place_of_cell(int(barred[0]))} is a barrier")
         for cell in door.cells.tolist():
             if cell in seen:
