@@ -73,6 +73,7 @@ USES = {
     **{name: f'th.make_plan(scenario, "{name}")' for name in PLANNERS},
     "audit": "th.audit_plan(plan)",
     "bound": "th.make_lower_bound(th.make_n_scheme(scenario))",
+    "slot_bound": "from trihex.bounds import slot_bound; slot_bound(th.make_n_scheme(scenario))",
     "d_scheme": "th.make_d_scheme(th.make_n_scheme(scenario))",
     "trial": "th.Trial(scenario, sensor=2).run()",
     "order": "th.make_passing_order(plan).run(delay=0.1)",

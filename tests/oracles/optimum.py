@@ -1,11 +1,13 @@
 """The least total time of small scenarios, by integer programming over drawn cells; every rule is an inequality."""
 
 from collections import defaultdict
+from math import ceil
 
 import numpy as np
 from scipy.optimize import Bounds, LinearConstraint, milp
 from scipy.sparse import coo_array
 
+from tests.oracles.doors import Openings
 from tests.oracles.rules import Rules
 
 
@@ -22,7 +24,7 @@ def least_total_time(scenario, steps, *, count_steps=False):
     waited = sum(robots.values()) * (1 if count_steps else scenario.waiting_cost)  # until they may go
     if not robots:
         return 0
-    cost, at_most, balance = [], defaultdict(list), defaultdict(list)
+    cost, at_most, balance, openings = [], defaultdict(list), defaultdict(list), Openings(scenario)
     for step in range(1, steps + 1):
         for cell in reachable - destinations:
             if step <= robots.get(cell, 0):
@@ -40,6 +42,7 @@ def least_total_time(scenario, steps, *, count_steps=False):
                     balance[other, step].append((move, 1))
                     at_most["cell", other, step].append(move)
                 if other != cell:
+                    at_most["door", other, step].append(move)
                     at_most["exchange", min(cell, other), max(cell, other), step].append(move)
                     vertex = rules.vertex(cell, other)
                     if scenario.crossing == "forbid" and vertex is not None:
@@ -47,7 +50,10 @@ def least_total_time(scenario, steps, *, count_steps=False):
     limits = dict.fromkeys(at_most, 1)
     for name in at_most:
         if name[0] == "enter":
-            limits[name] = scenario.destination_capacity or len(robots)
+            limits[name] = ceil(scenario.destination_capacity or len(robots))
+        if name[0] == "door":
+            limits[name] = openings(*name[1:])
+            limits[name] = len(robots) if limits[name] is None else limits[name]
     rows = [(row, move, 1) for row, moves in enumerate(at_most.values()) for move in moves]
     upper = [limits[name] for name in at_most]
     lower = [-np.inf] * len(upper)

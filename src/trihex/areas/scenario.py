@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import cached_property
+from math import ceil
 from typing import Any
 
 import numpy as np
@@ -11,9 +13,13 @@ from numpy.typing import NDArray
 
 from trihex.areas.area import Area
 from trihex.areas.clearance import check_cell_size, check_rules, usual_following
+from trihex.areas.door import Door, doors_from
+from trihex.areas.flow import flow_from, flow_in_words
 from trihex.areas.nearest import nearest_free_cell
 from trihex.areas.places import cells_from
+from trihex.areas.schedule import Schedule, schedule_of
 from trihex.areas.tessellation import CLOCKS
+from trihex.areas.zone import Zone
 from trihex.errors import ScenarioError, check_choice, check_type, check_whole, is_whole
 from trihex.record import Record, counted, read_only, short
 
@@ -45,9 +51,10 @@ class Scenario(Record):
     corners : {"allow", "no-squeeze", "no-cut"}
         When a vertex move is open: always; if one way round the vertex meets no barrier; if no barrier touches the
         vertex. What lies outside the area counts as barrier.
-    destination_capacity : int, optional
+    destination_capacity : int, Fraction, float or str, optional
         How many robots may enter one destination in one step, or be entering it at a time. Default: any number; 1 in an
-        area with a frame.
+        area with a frame. A fraction such as 0.5 or "1/3" is a flow: see `Door`; so is "1.6/s", robots a second, in an
+        area with a frame, if no robot is faster than 1 metre in a second.
     clock : {"steps", "costs"}, optional
         "steps": every move lasts one step. "costs": a move lasts as long as it costs, in ticks, and waiting costs 1 a
         tick, so that t_r is the tick of arrival; see `Tessellation`, whose clock is the default. In an area with a
@@ -63,6 +70,10 @@ class Scenario(Record):
         After how many steps (ticks) each robot may begin its first move, or all of them; until then it stands where it
         starts, and is in the way: people who have not reacted to the alarm yet. Kept as int64. t_r counts from step 0,
         so until then a robot waits. One that starts on a destination has arrived at step 0 all the same. Default: 0.
+    doors : mapping, or sequence, optional
+        Places that only so many robots enter in a step, exits or passages: flows by the names of zones, such as
+        ``{"north": "1.6/s"}``, or pairs (places, flow), or `Door`. Where a destination is one, its flow stands in the
+        place of a `destination_capacity` that is a fraction; one that is whole holds as well.
 
     Raises
     ------
@@ -85,11 +96,12 @@ class Scenario(Record):
     waiting_cost: int = None  # type: ignore[assignment]
     crossing: str = "forbid"
     corners: str = "allow"
-    destination_capacity: int | None = None
+    destination_capacity: int | Fraction | None = None
     seed: int | None = None
     clock: str = None  # type: ignore[assignment]
     following: str = None  # type: ignore[assignment]
     start_times: NDArray[np.int64] = ()  # type: ignore[assignment]
+    doors: tuple[Door, ...] = ()
 
     def __post_init__(self) -> None:
         check_type("area", self.area, Area, error=ScenarioError)
@@ -102,13 +114,15 @@ class Scenario(Record):
         if self.destination_capacity is None and area.frame is not None:
             self._set("destination_capacity", 1)
         if self.destination_capacity is not None:
-            check_whole("destination_capacity", self.destination_capacity, 1, _MOST, ScenarioError)
+            flow = flow_from("destination_capacity", self.destination_capacity, area)
+            self._set("destination_capacity", int(flow) if flow.denominator == 1 else flow)
         if self.following is None:
             self._set("following", usual_following(area.tessellation, area.frame))
         check_choice("following", self.following, FOLLOWINGS, ScenarioError)
         if area.frame is not None:
             check_cell_size(area.tessellation, area.frame, self.following)
             check_rules(area.tessellation, area.frame, self.crossing, self.destination_capacity)
+        self._set("doors", doors_from(area, self.doors))
         for parameter, one in (("destinations", "destination"), ("robots", "robot")):
             cells = cells_from(area, getattr(self, parameter), parameter, ScenarioError)
             self._check_free(cells, one)
@@ -144,7 +158,10 @@ class Scenario(Record):
         rules = {"waiting_cost": self.area.tessellation.waiting_cost, "crossing": "forbid", "corners": "allow"}
         rules["destination_capacity"] = None if self.area.frame is None else 1
         rules |= {"clock": "steps", "following": "allow"}
-        odd = [f"{name}={getattr(self, name)!r}" for name, usual in rules.items() if getattr(self, name) != usual]
+        odd = [
+            f"{name}={_in_words(getattr(self, name))}" for name, usual in rules.items() if getattr(self, name) != usual
+        ]
+        odd += [f"door {door.in_words()}" for door in self.doors]
         if self.has_start_times:
             odd.append(f"start_times=0..{self.start_times.max()}")
         goals = counted(self.destinations.size, "destination")
@@ -161,9 +178,17 @@ class Scenario(Record):
         return bool(self.start_times.any())
 
     @property
+    def has_flows(self) -> bool:
+        """Whether some cells let robots in by a flow."""
+        return self.schedule.cells.size > 0
+
+    @property
     def moves_by_steps(self) -> bool:
-        """Whether planners may let all robots act in every step: time is in steps alone, and all begin at once."""
-        return self.is_stepwise and not self.has_start_times
+        """Whether planners may let all robots act in every step: time is in steps alone, and nobody waits for a time.
+
+        Where robots wait until they may begin, or until a door opens, they are asked when it is time.
+        """
+        return self.is_stepwise and not self.has_start_times and not self.has_flows
 
     @property
     def forbids_crossing(self) -> bool:
@@ -199,8 +224,34 @@ class Scenario(Record):
 
     @property
     def entry_limit(self) -> int:
-        """How many robots may enter one destination in a step, 0 for any number: the capacity as kernels know it."""
-        return self.destination_capacity or 0
+        """How many robots may enter one destination in a step, 0 for any number: the capacity as kernels know it.
+
+        When they may do so `schedule` tells, where there are flows.
+        """
+        return ceil(self.destination_capacity or 0)
+
+    @cached_property
+    def schedule(self) -> Schedule:
+        """When those cells may be entered that let robots in by a flow: doors, and destinations of such a capacity."""
+        if not self.doors:
+            return schedule_of((), self.destinations, self.destination_capacity, np.ones(self.destinations.size, bool))
+        from trihex.areas.entries import ways_into_destinations
+
+        entered: NDArray[np.bool_] = np.asarray((ways_into_destinations(self) >= 0).any(axis=1))
+        return schedule_of(self.doors, self.destinations, self.destination_capacity, entered)
+
+    @property
+    def exit_zones(self) -> tuple[Zone, ...]:
+        """The zones of the area, without those that are doors which robots only pass."""
+        passed = {door.name for door in self.doors if not np.isin(door.cells, self.destinations).any()}
+        return tuple(zone for zone in self.area.zones if zone.name not in passed)
+
+    def flows_in_words(self, step_seconds: float | None = None) -> dict[str, str]:
+        """Return how many robots each door lets in, by its name or the place of its first cell: a second, or a step."""
+        return {
+            door.name or self.area.name_of_cell(int(door.cells[0])): flow_in_words(door.flow, self.area, step_seconds)
+            for door in self.doors
+        }
 
     @property
     def corner_rule(self) -> int:
@@ -275,6 +326,10 @@ def random_robots(area: Area, count: int, seed: int = 0, *, avoid: Any = ()) -> 
     if count > free.size:
         raise ScenarioError(f"robots must be at most the number of free cells, {free.size}, not {count}")
     return np.random.default_rng(seed).choice(free, size=count, replace=False).astype(np.int64)
+
+
+def _in_words(value: Any) -> str:
+    return str(value) if isinstance(value, Fraction) else repr(value)
 
 
 def _check_free(area: Area, cells: NDArray[np.int64], one: str) -> None:

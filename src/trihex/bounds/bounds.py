@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from trihex.areas import Scenario
 from trihex.bounds.cuts import Cut, find_cuts
 from trihex.bounds.demand import Demand, make_demand
+from trihex.bounds.doors import arrivals_past_doors, hold_up_at_exits
 from trihex.bounds.gates import GateNetwork, make_gate_network
 from trihex.bounds.meetings import find_meeting_nodes
 from trihex.bounds.queues import queue_past_cuts
@@ -106,6 +107,7 @@ def slot_bound(n_scheme: NScheme) -> LowerBound:
     demand = make_demand(n_scheme)
     slots = np.sort(demand.steps)
     queue_up(slots, entry_headways(demand.nodes))
+    hold_up_at_exits(demand, slots)
     return LowerBound("slot", _least_cost(n_scheme, int(slots.sum())))
 
 
@@ -134,6 +136,9 @@ def _steps_past_gates(demand: Demand, most_gates: int, progress: Callable[[int, 
     if entries.size * demand.nodes.count <= _MOST_SENT:
         cuts = find_cuts(demand, most_searches=_MOST_VISITS // (4 * free_cells) + 1)
     queued = queue_past_cuts(demand, cuts, entries)
+    if demand.scenario.has_flows:
+        np.maximum(queued, arrivals_past_doors(demand), out=queued)
+        hold_up_at_exits(demand, queued)
     visits = min(_MOST_VISITS, _VISITS_PER_ROBOT * demand.sites.size)
     gates = _choose_gates(demand, cuts, min(most_gates, visits // free_cells))
     horizon = int(queued.max(initial=0)) * 5 // 4 + 100
@@ -171,18 +176,27 @@ def _arrivals_past_gates(
     duration = demand.scenario.duration_of_direction
     left = np.full(demand.sites.size - served.size, last + 1 - int(duration.max() - duration.min()))
     queue_up(left, entries)
+    hold_up_at_exits(demand, left)
     return np.concatenate([served, np.maximum(left, last + 1)])
 
 
 def _choose_gates(demand: Demand, cuts: list[Cut], most: int) -> NDArray[np.int32]:
     """Return up to `most` nodes: the cut for all robots, those with the longest queues, the nodes where most meet."""
-    gates = np.empty(0, dtype=np.int32)
+    gates = _doors(demand, most // 2)
     for cut in cuts[-1:] + sorted(cuts[:-1], key=lambda cut: -cut.behind.size / cut.width):
         more = np.union1d(gates, cut.nodes)
         if more.size <= most:
             gates = more
     more_gates = min(most - gates.size, most // 2)
     return np.union1d(gates, find_meeting_nodes(demand, more_gates)) if more_gates > 3 else gates
+
+
+def _doors(demand: Demand, most: int) -> NDArray[np.int32]:
+    """Return the doors that robots can pass, if they are no more than so many."""
+    sites = np.sort(demand.scenario.area.layout.cell_to_site(demand.scenario.schedule.cells)).astype(np.int32)
+    sites = sites[demand.nodes.steps_of_site[sites] >= 0]
+    is_few = demand.scenario.is_stepwise and demand.nodes.places(sites).sum() <= most
+    return sites if is_few else sites[:0]
 
 
 def _at_robots(n_scheme: NScheme, field: NDArray[np.int32]) -> NDArray[np.int64]:

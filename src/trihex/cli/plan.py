@@ -77,6 +77,8 @@ def command(
 
     Exit status 1: some robots cannot arrive. The others are planned and all outputs are written.
     """
+    from dataclasses import replace
+
     from trihex.planners import check_planner_options
 
     outputs: dict[str, Any] = {name: value for name, value in named._asdict().items() if value is not None}
@@ -87,6 +89,7 @@ def command(
     seconds = {"read": perf_counter() - begin}
     outputs = draft.outputs | outputs
     _check_outputs(outputs, write_scenario)
+    draft = replace(draft, outputs=outputs)  # speed tells how long a step lasts
     planner = planner or draft.planner or "fcost"
     planner_options = {**(draft.planner_options if planner == draft.planner else {}), **_parsed(planner_option)}
     check_planner_options(planner, planner_options)
@@ -134,6 +137,8 @@ def _check_before(draft: Any, *, straight: bool, certificate: bool) -> None:
         from trihex.optimum import check_certifiable
 
         check_certifiable(scenario)
+        if draft.has_start_times:
+            raise wrong_use("--certificate needs robots that may all begin at once, without start times")
     if straight:
         from trihex.planners import check_straightenable
 

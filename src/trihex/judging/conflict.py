@@ -24,6 +24,7 @@ _CODES = (
     ("capacity", 1, 1, "robot {0} is one too many to enter destination {a}"),
     ("arrival", 1, 1, "robot {0} acts on after it has entered destination {a}"),
     ("cell", 2, 1, "robots {0} and {1} both own cell {a}"),
+    ("capacity", 1, 1, "robot {0} enters the door {a} while it is shut"),
     ("arrival", 1, 1, "robot {0} ends in {a}, which is no destination, though it could have reached one"),
     ("barrier", 1, 1, "robot {0} starts on the barrier {a}"),
     ("barrier", 0, 1, "destination {a} is a barrier"),
@@ -50,8 +51,8 @@ class Conflict:
     cells : tuple of (x, y)
         "cell": where both are. "exchange": where each came from. "crossing": from, to, from, to. "jump", "barrier",
         "corner": from, to; only from, where a robot leaves the area; only the barrier, where it starts there or the
-        destination is one. "capacity": the destination. "arrival": where the robot stopped, or arrived before its last
-        action. "start": where the robot starts, which it leaves too early.
+        destination is one. "capacity": the destination, or the door. "arrival": where the robot stopped, or arrived
+        before its last action. "start": where the robot starts, which it leaves too early.
     text : str
         The same in words.
     """

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from trihex.errors import PlanError
 from trihex.memory import limit_or_default
+from trihex.optimum.doors import find_shut_nodes
 from trihex.optimum.flow import Flow
 from trihex.optimum.network import Network
 from trihex.optimum.workspace import check_memory, held_nodes, start_nodes
@@ -66,6 +67,9 @@ def make_earliest_flow(
     start = start_nodes(network, cells)
     words = lay_words(network, graph, plan, start, robots, layers)
     words[held_nodes(network, cells)] = DEAD * LABEL
+    shut = find_shut_nodes(network, network.room, 0, layers)
+    words[shut.gates] = DEAD * LABEL
+    words[shut.slots] += shut.missing.astype(np.uint32)
     search = _make_search(network, words)
     status = BUDGET_SPENT
     while status != DONE:
@@ -123,7 +127,7 @@ def _make_search(network: Network, words: NDArray[np.uint32]) -> Any:
     from trihex.optimum.kernels.words import DEAD
 
     state = np.zeros(kernels.STATE_SIZE, dtype=np.int64)
-    state[kernels.GOAL] = network.node_count
+    state[kernels.GOAL], state[kernels.LAST] = network.node_count, words.size // network.node_count - 1
     return given(
         kernels.SlotSearch,
         words=words,

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.memory import limit_or_default
+from trihex.optimum.doors import shut_doors
 from trihex.optimum.flow import Flow
 from trihex.optimum.network import Network
 from trihex.optimum.workspace import (
@@ -77,6 +78,7 @@ class _PricedWork:
         self.nodes.flow[self.search.start] = START << 4
         self.nodes.flow[held_nodes(network, cells)] = START << 4
         self.nodes.leaving[self.search.start] = kernels.RISES
+        shut_doors(network, self.nodes.flow, 0)
 
     def make_room(self, status: int) -> None:
         """Make room for what a search ended for; refuse it if there is none."""
@@ -93,6 +95,7 @@ class _PricedWork:
             self._check_memory(self.layers + more)
             added = more * self.network.node_count
             self.nodes = PricedNodes(*(longer(array, added) for array in self.nodes))
+            shut_doors(self.network, self.nodes.flow, self.layers)
             self.layers += more
 
     def _check_memory(self, layers: int, list_bytes: int = 0) -> None:

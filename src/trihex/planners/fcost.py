@@ -68,6 +68,8 @@ def _run(n_scheme: NScheme, rule: str, keeps_actions: bool, progress: Progress |
         )
     if rule == "paper" and scenario.has_start_times:
         raise PlanError("rule must not be 'paper' where there are start_times: in the paper all robots begin at once")
+    if rule == "paper" and scenario.has_flows:
+        raise PlanError("rule must not be 'paper' where doors have a flow: in the paper none is ever shut")
     if rule == "lanes":
         return _simulated(make_lanes(n_scheme).d_scheme, "aside", keeps_actions, progress)
     d_scheme = make_d_scheme(n_scheme)

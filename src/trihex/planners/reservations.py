@@ -53,7 +53,8 @@ class Reservations:
             least_cost=min(scenario.waiting_cost, int((cost // duration).min())),
             most_cost=(cost // duration).max(),
         )
-        ends = sites.size if scenario.entry_limit else 0
+        self._has_doors = scenario.has_flows
+        ends = sites.size if scenario.entry_limit or self._has_doors else 0
         number = np.zeros(layout.size if ends else 0, dtype=np.int32)
         if ends:
             number[sites] = np.arange(ends)
@@ -67,6 +68,8 @@ class Reservations:
             number=number,
             ends=ends,
             capacity=scenario.entry_limit,
+            let_in=np.zeros(0, dtype=np.int32),
+            doors=scenario.schedule.for_kernels(layout),
         )
         self._estimates = Estimates(self._terrain)
         self._state = np.zeros(astar.STATE_SIZE, dtype=np.int64)
@@ -123,6 +126,7 @@ class Reservations:
             site=_grown(self._reserved.site, rows * size),
             vertex=_grown(self._reserved.vertex, steps * size * self._forbids),
             entries=_grown(self._reserved.entries, rows * ends),
+            let_in=_grown(self._reserved.let_in, steps * ends * self._has_doors),
         )
 
     @property
@@ -132,9 +136,9 @@ class Reservations:
 
     def _bytes_of(self, steps: int) -> int:
         """Return what tables for so many steps take."""
-        size = self.distance.size
+        size, ends = self.distance.size, self._reserved.ends
         rows = steps * max(1, self._reserved.per_tick)
-        return int(rows * (size + 4 * self._reserved.ends) + steps * size * self._forbids)
+        return int(rows * (size + 4 * ends) + steps * (size * self._forbids + 4 * ends * self._has_doors))
 
     def hold(self, start: int, start_time: int) -> None:
         """Reserve the site of a robot that stands there until it may begin to move."""

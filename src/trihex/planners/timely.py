@@ -94,6 +94,7 @@ def _make_stage(crowd: Crowd, slots: Slots) -> Any:
     scenario, size = crowd.scenario, crowd.scenario.area.layout.size
     duration = scenario.duration_of_direction
     limit = scenario.entry_limit if scenario.entry_limit < duration.size else 0  # no more than that enter at a time
+    counts = scenario.destinations.size * int(kernels.AHEAD) if scenario.has_flows else 0
     clock = given(
         kernels.Clock,
         duration=duration,
@@ -107,8 +108,11 @@ def _make_stage(crowd: Crowd, slots: Slots) -> Any:
         left_until=np.zeros(size, dtype=np.int32),
         passed=crowd.passed,
         entered_until=np.zeros(max(1, scenario.destinations.size * limit), dtype=np.int32),
+        let_in=np.zeros(counts, dtype=np.int32),
+        let_in_at=np.zeros(counts, dtype=np.int32),
     )
-    return kernels.Stage(clock, slots.ways._replace(entry_limit=limit), *slots.for_kernels(), claims)
+    doors = scenario.schedule.for_kernels(scenario.area.layout)
+    return kernels.Stage(clock, slots.ways._replace(entry_limit=limit), *slots.for_kernels(), claims, doors)
 
 
 def _make_agenda(crowd: Crowd) -> Any:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from math import ceil, sqrt
 from typing import Annotated, Any
 
@@ -94,7 +95,7 @@ def document_of(draft: Draft) -> Bundle:
         "corners": draft.corners or "allow",
         "clock": draft.clock or area.tessellation.clock,
         "following": draft.following or usual_following(area.tessellation, frame),
-        "destination_capacity": None if draft.destination_capacity is None else int(draft.destination_capacity),
+        "destination_capacity": _whole_capacity(draft),
         "seed": None if draft.seed is None else int(draft.seed),
     }
     arrays: dict[str, NDArray[Any]] = {
@@ -165,6 +166,12 @@ def draft_of_document(header: Any, arrays: dict[str, NDArray[Any]]) -> Draft:
         following=parsed.following,
         destination_capacity=parsed.destination_capacity,
     )
+
+
+def _whole_capacity(draft: Draft) -> int | None:
+    """Return how many robots enter a destination at a time; of a flow, which the page does not know, at most."""
+    capacity = draft.destination_capacity
+    return None if capacity is None else ceil(Fraction(capacity))
 
 
 def _cells(cells: NDArray[np.int64] | None) -> NDArray[np.int32]:

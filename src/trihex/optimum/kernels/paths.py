@@ -39,9 +39,9 @@ def _next_node(at, paths):
 
 @HELPER
 def _next_place(at, paths):
-    """Return the cell or destination that the robot in a cell goes to, past a lattice vertex or not."""
+    """Return the cell or destination that the robot in a cell goes to, past a lattice vertex or a gate or not."""
     head = _next_node(at, paths)
-    if paths.cell_count <= head % len(paths.out) < paths.first_goal:
+    while paths.cell_count <= head % len(paths.out) < paths.first_goal:
         head = _next_node(head, paths)
     return head
 
