@@ -48,10 +48,10 @@ def test_what_is_no_flow_is_refused(given):
         ({"north": "1.6/s"}, "capacity of door 'north' must be robots a step, such as 0.5, in an area without metres"),
         ({"north": 1e-6}, "capacity of door 'north' must be from 1/10000 to 1073741824 robots a step, not 1e-06"),
         ({"nroth": 1}, "door: zone must be one of north, not 'nroth'; did you mean 'north'"),
-        ([([0, 1], 1), ([1, 2], 1)], r"doors must not share cells; door 1 and door 0 have \\(1, 0\\)"),
+        ([([0, 1], 1), ([1, 2], 1)], r"doors must not share cells; door 1 and door 0 have \(1, 0\)"),
         ([([], 1)], "door 0 must have 1 to 10000 free cells, not 0"),
         ([([99], 1)], "cells of a door: cell number 99 lies outside"),
-        ([3], r"a door must be a pair \\(places or a name, flow\\), not 3"),
+        ([3], r"a door must be a pair \(places or a name, flow\), not 3"),
         (7, "doors must be flows by the names of zones, or a list of doors, not int"),
     ],
 )  # fmt: skip

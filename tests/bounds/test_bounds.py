@@ -124,7 +124,7 @@ def test_no_bound_exceeds_the_optimum(scenario):
     if optimum is None:  # so many steps are seldom needed, and more of them cost time
         latest = int(scenario.start_times.max(initial=0))
         optimum = least_total_time(scenario, scenario.area.free_count + scenario.robot_count + latest)
-    assert max(values(scenario)) <= optimum
+    assert max(*values(scenario), th.queue_bound(th.make_n_scheme(scenario)).value) <= optimum
 
 
 def all_nodes(demand):

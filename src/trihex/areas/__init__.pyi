@@ -23,7 +23,7 @@ from .coverage import (
 )
 from .door import (
     Door as Door,
-    doors_from as doors_from,
+    make_doors as make_doors,
 )
 from .entries import (
     entries_per_step as entries_per_step,

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from trihex.areas.area import Area
 from trihex.areas.flow import flow_from
 from trihex.areas.places import cells_from
+from trihex.areas.seconds import seconds_per_step
 from trihex.errors import AreaError, ScenarioError, kind_of
 from trihex.record import Record, read_only
 
@@ -54,22 +55,30 @@ class Door(Record):
         return f"{self.name or f'{self.cells.size} cells'}: {self.flow}"
 
 
-def doors_from(area: Area, given: Any, step_seconds: float | None = None) -> tuple[Door, ...]:
-    """Return the doors of an area, checked.
+def make_doors(area: Area, given: Any, *, speed: float = 1.0, turn_time: float = 0.0) -> tuple[Door, ...]:
+    """Return the doors of an area, checked, for `Scenario`.
 
     Parameters
     ----------
     area : Area
     given : mapping, or iterable
         Flows (see `flow_from`) by the names of zones, or doors, or pairs (places or the name of a zone, flow).
-    step_seconds : float, optional
-        As for `flow_from`.
+    speed, turn_time : float
+        Of robots in an area in metres, as for `write_waypoints`: they tell what a flow in robots a second is.
 
     Raises
     ------
     ScenarioError
         If a zone does not exist, a door has no cell or one that is a barrier, or two doors share a cell.
+
+    Examples
+    --------
+    >>> from trihex.areas.frame import Frame
+    >>> area = Area("hexagonal", [[0, 0]], frame=Frame(cell_size=0.5))
+    >>> make_doors(area, [((0, 0), "1.6/s")], speed=2.0)[0].flow
+    Fraction(2, 5)
     """
+    step_seconds = None if area.frame is None else seconds_per_step(area, speed, turn_time)
     doors = tuple(_door_from(area, one, step_seconds) for one in _pairs(given))
     seen: dict[int, str] = {}
     for number, door in enumerate(doors):

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from trihex.areas.area import Area
 from trihex.areas.clearance import check_cell_size, check_rules, usual_following
-from trihex.areas.door import Door, doors_from
+from trihex.areas.door import Door, make_doors
 from trihex.areas.flow import flow_from, flow_in_words
 from trihex.areas.nearest import nearest_free_cell
 from trihex.areas.places import cells_from
@@ -72,8 +72,8 @@ class Scenario(Record):
         so until then a robot waits. One that starts on a destination has arrived at step 0 all the same. Default: 0.
     doors : mapping, or sequence, optional
         Places that only so many robots enter in a step, exits or passages: flows by the names of zones, such as
-        ``{"north": "1.6/s"}``, or pairs (places, flow), or `Door`. Where a destination is one, its flow stands in the
-        place of a `destination_capacity` that is a fraction; one that is whole holds as well.
+        ``{"north": "1.6/s"}``, or pairs (places, flow), or what `make_doors` makes. Where a destination is one, its
+        flow stands in the place of a `destination_capacity` that is a fraction; one that is whole holds as well.
 
     Raises
     ------
@@ -122,7 +122,7 @@ class Scenario(Record):
         if area.frame is not None:
             check_cell_size(area.tessellation, area.frame, self.following)
             check_rules(area.tessellation, area.frame, self.crossing, self.destination_capacity)
-        self._set("doors", doors_from(area, self.doors))
+        self._set("doors", make_doors(area, self.doors))
         for parameter, one in (("destinations", "destination"), ("robots", "robot")):
             cells = cells_from(area, getattr(self, parameter), parameter, ScenarioError)
             self._check_free(cells, one)

@@ -58,8 +58,6 @@ def command(file: Path | None, area: Path | None, port: int, no_browser: bool, *
         raise wrong_use("--planners is for --export")
     if export is not None:
         return _export(record, export, planners)
-    if getattr(getattr(record, "scenario", record), "has_start_times", False):
-        click.echo(f"trihex: {file} has start times, which pages do not know: what they plan begins at once", err=True)
     try:
         open_viewer(record, port=port, browser=not no_browser, tell=_tell)
     except KeyboardInterrupt:

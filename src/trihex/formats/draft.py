@@ -14,8 +14,8 @@ from trihex.areas import (
     Area,
     Door,
     Scenario,
-    doors_from,
     flow_from,
+    make_doors,
     random_robots,
     random_start_times,
     seconds_per_step,
@@ -113,25 +113,29 @@ class Draft(Record):
             scenario = scenario.with_robots(_draw(scenario, self.random_count, seed), seed)
         elif self.robots is None:
             return scenario
-        return scenario if self.start_times is None else replace(scenario, start_times=self._start_times(scenario))
+        if self.start_times is None:
+            return scenario
+        return replace(scenario, start_times=self.steps_of_starts(scenario.area, scenario.robot_count))
 
-    def _start_times(self, scenario: Scenario) -> NDArray[np.int64]:
-        """Return the start times of the robots of a scenario, in steps."""
+    def steps_of_starts(self, area: Area, count: int) -> NDArray[np.int64]:
+        """Return the start times of so many robots, in steps of the area."""
         given, pace = self.start_times, {n: v for n, v in self.outputs.items() if n in ("speed", "turn_time")}
+        if given is None:
+            return np.zeros(count, dtype=np.int64)
         if isinstance(given, str):
-            return random_start_times(scenario.area, scenario.robot_count, given, self.seed or 0, **pace)
+            return random_start_times(area, count, given, self.seed or 0, **pace)
         times = np.asarray(given)
-        return start_times_of(scenario.area, times, **pace) if times.dtype.kind == "f" else times
+        return start_times_of(area, times, **pace) if times.dtype.kind == "f" else times
 
     def _flows(self) -> tuple[int | Fraction | None, tuple[Door, ...]]:
         """Return the capacity of destinations and the doors, by how long a step lasts as outputs say it."""
-        area, lasts = self.area if self.clock is None else self.area.with_clock(self.clock), None
-        if area.frame is not None:
-            lasts = seconds_per_step(area, **{n: self.outputs[n] for n in ("speed", "turn_time") if n in self.outputs})
+        area = self.area if self.clock is None else self.area.with_clock(self.clock)
+        pace = {n: v for n, v in self.outputs.items() if n in ("speed", "turn_time")} if area.frame is not None else {}
         capacity = self.destination_capacity
         if capacity is not None:
+            lasts = None if area.frame is None else seconds_per_step(area, **pace)
             capacity = flow_from("destination_capacity", capacity, area, lasts)
-        return capacity, doors_from(area, self.doors, lasts)
+        return capacity, make_doors(area, self.doors, **pace)
 
 
 def _draw(scenario: Scenario, count: int, seed: int) -> NDArray[np.int64]:

@@ -86,8 +86,16 @@ class AfreshVariations:
         barriers.reshape(-1)[cell] = not barriers.reshape(-1)[cell]
         area = Area(scenario.area.tessellation, barriers, frame=scenario.area.frame)
         destinations = np.append(scenario.destinations, cell) if is_door else scenario.destinations
-        robots = scenario.robots[scenario.robots != cell]
-        return replace(scenario, area=area, destinations=destinations, robots=robots)
+        stays = scenario.robots != cell
+        doors = tuple(replace(door, cells=door.cells[door.cells != cell]) for door in scenario.doors)
+        return replace(
+            scenario,
+            area=area,
+            destinations=destinations,
+            robots=scenario.robots[stays],
+            start_times=scenario.start_times[stays],
+            doors=tuple(door for door in doors if door.cells.size),
+        )
 
     def _least(self, scenario: Scenario) -> int:
         plan = make_plan(scenario, "optimal", memory_limit=self._memory_limit)

@@ -22,7 +22,17 @@ from trihex.bounds import distance_bound, make_lower_bound, slot_bound
 from trihex.errors import FormatError, TooLargeError, TrihexError, check_choice, check_type, is_whole
 from trihex.fields import distance_generations, make_d_scheme
 from trihex.files import read_bytes
-from trihex.formats import FORMATS, Draft, draft_of, format_of, read_draft, read_plan, read_run, read_starts
+from trihex.formats import (
+    FORMATS,
+    Draft,
+    draft_of,
+    format_of,
+    read_draft,
+    read_plan,
+    read_run,
+    read_start_times,
+    read_starts,
+)
 from trihex.judging import Report, audit_plan, make_report
 from trihex.planners import PLANNERS, check_plannable, make_plan, uses_of
 from trihex.plans import Plan
@@ -159,7 +169,8 @@ class Desk:
             return self._shown(plan, seconds, call)
         if form.holds == "starts":
             draft = call.draft(request)
-            return _drafted(replace(draft, robots=read_starts(path, draft.area), seed=None))
+            robots, times = read_starts(path, draft.area), read_start_times(path)
+            return _drafted(replace(draft, robots=robots, start_times=times, seed=None))
         options = {name: getattr(request, name) for name in _PLACE}
         try:
             draft = read_draft(path, request.tessellation, progress=call.progress("reading"), **options)
@@ -182,7 +193,9 @@ class Desk:
         return _drafted(Draft(area))
 
     def _scatter(self, request: ask.Scatter, call: Call) -> Bundle:
-        draft = replace(call.draft(request), robots=None, random_count=request.count, seed=request.seed)
+        draft = replace(
+            call.draft(request), robots=None, start_times=None, random_count=request.count, seed=request.seed
+        )
         return _drafted(_drawn(draft, call))
 
     def _fields(self, request: ask.Fields, call: Call) -> Bundle:
