@@ -22,7 +22,7 @@ _LIST = 1 << 16
 # The lists that grow.
 _LISTS = ("sides", "filed", "arrivals", "stack", "seen")
 # For how many units to come it is told apart what is tight when.
-_RISES = 1 << 12
+_RISES = 1 << 6
 
 
 def make_flow_at_prices(
@@ -44,6 +44,11 @@ def make_flow_at_prices(
         if progress:
             progress(int(work.search.state[SERVED]), cells.size)
         work.make_room(status)
+    if hasattr(work,'wanted'):
+        from trihex.optimum.kernels import prices as pk
+        left=work.wanted[(work.nodes.entering[work.wanted]&pk.WANTED)!=0]
+        st=work.search.state
+        print('left over', left.size, [(int(x)//network.node_count,network.hops[int(x)%network.node_count]) for x in left[:20]],'rise',st[pk.RISE])
     total = int(work.search.state[TOTAL]) + int(network.value[cells].sum(dtype=np.int64))
     return Flow(network, work.search.start, work.nodes.flow, total * network.unit)
 
@@ -67,7 +72,9 @@ class _PricedWork:
         self.nodes = kernels.PricedNodes(*(np.zeros(size, dtype) for dtype in (np.uint8, np.int32, np.int32)))
         self.search = _make_search(start_nodes(network, cells))
         self.nodes.flow[self.search.start] = START << 4
-        self.nodes.leaving[self.search.start] = kernels.RISES
+        self._want_goals(0)
+        self.lay_tolls()
+        self.nodes.leaving[self.search.start] = self.nodes.entering[self.search.start] | kernels.RISES
 
     def make_room(self, status: int) -> None:
         """Make room for what a search ended for; refuse it if there is none."""
@@ -85,6 +92,40 @@ class _PricedWork:
             added = more * self.network.node_count
             self.nodes = PricedNodes(*(longer(array, added) for array in self.nodes))
             self.layers += more
+            self._want_goals(self.layers - more)
+
+    def lay_tolls(self):
+        import os, time
+        t=time.process_time()
+        from trihex.optimum.queues import price_arrivals
+        from trihex.optimum.kernels import queues as kernels
+        from trihex.optimum.kernels import prices as pk
+        from trihex.kernels.signatures import given
+        if os.environ.get('NOTOLL'): return
+        n=self.network
+        price,taken=price_arrivals(n,self.cells,self.layers)
+        t1=time.process_time()
+        m=int(os.environ.get('MARGIN',n.base)); first=int(os.environ.get('FIRST','0'))
+        toll=np.maximum(price-m,0)
+        for j in range(toll.shape[1]):
+            full=taken[:,j]>=n.room[j]
+            last=np.flatnonzero(~full & (toll[:,j]>0))
+            T1=max(last.max(initial=-1)+1, np.flatnonzero(full).min(initial=0))+first
+            toll[:T1,j]=0
+            print('goal',j,'T1',T1,'tolled',(toll[:,j]>0).sum(), 'max',toll[:,j].max())
+        ways=given(kernels.Ways, order=n.order, hops=n.hops, cells=self.cells)
+        self.search.state[pk.TOTAL]=kernels.lay_prices(self.graph,ways,toll.astype(np.int32),self.nodes.flow,self.nodes.entering)
+        self.wanted=np.flatnonzero((self.nodes.entering & pk.WANTED)!=0)
+        self.wanted=self.wanted[self.wanted%n.node_count<n.first_destination]
+        print('wanted',self.wanted.size,'seconds',t1-t,time.process_time()-t1)
+        self.toll=toll
+
+    def _want_goals(self, first: int) -> None:
+        """Let paths end at the destinations of all layers from the first one on."""
+        from trihex.optimum.kernels.prices import WANTED
+
+        goals = slice(self.network.first_destination, None)
+        self.nodes.entering.reshape(self.layers, -1)[first:, goals] = WANTED
 
     def _check_memory(self, layers: int, list_bytes: int = 0) -> None:
         need = layers * self.network.node_count * _BYTES_PER_NODE + list_bytes
@@ -100,6 +141,7 @@ def _make_search(start: NDArray[np.int64]) -> Any:
     length = max(_LIST, start.size)
     state = np.zeros(kernels.STATE_SIZE, dtype=np.int64)
     state[kernels.LISTED], state[kernels.FREE] = start.size, NONE
+    state[kernels.UNTIL] = _RISES - 1
     search = given(
         kernels.PricedSearch,
         start=start,

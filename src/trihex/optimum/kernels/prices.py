@@ -13,9 +13,9 @@ from trihex.kernels.signatures import HELPER, IN_I64, OUT_I32, OUT_I64, OUT_U8, 
 from trihex.optimum.kernels.residual import LOG, Layer
 
 ENTERING, LEAVING = 0, 1
-# The word of a side: its price, less the rise so far if it rises, shifted by `BITS`; whether it rises; and whether the
-# search under way has seen it.
-RISES, SEEN, BITS = 1, 2, 2
+# The word of a side: its price, less the rise so far if it rises, shifted by `BITS`; whether it rises; whether a walk
+# has seen it since prices last rose; and whether it is *wanted*, that is, a path may end there.
+RISES, SEEN, WANTED, BITS = 1, 2, 4, 3
 
 # Entries of the state.
 SERVED = 0  # robots with a path
@@ -25,8 +25,11 @@ LISTED = 3  # entries of the list of sides that rise
 NEXT = 4  # entry of the list that is looked at next
 FILED = 5  # entries that have been filed
 FREE = 6  # first of the filed entries that are free again, or NONE
-ARRIVALS = 7  # arcs to destinations that have become tight
-STATE_SIZE = 8
+ARRIVALS = 7  # arcs to wanted sides that have become tight
+MARKED = 8  # sides that walks have seen since prices last rose
+VAIN = 9  # whether one of these walks was in vain
+UNTIL = 10  # the rise after which what rises is found anew, as nothing has been filed for later ones
+STATE_SIZE = 11
 
 
 class PricedNodes(NamedTuple):
@@ -44,9 +47,9 @@ class PricedSearch(NamedTuple):
     sides: OUT_I64  # list of sides that have begun to rise
     filed: LOG  # what will be tight later, each with the next one of that time, or NONE
     heads: OUT_I64  # first of those filed for each rise, modulo its length, or NONE
-    arrivals: OUT_I64  # arcs to destinations, index * `ARCS` + place
+    arrivals: OUT_I64  # arcs to wanted sides, index * `ARCS` + place
     stack: LOG  # the walk in depth: side, arc that is tried next, arc by which it leads on
-    seen: OUT_I64  # what it has seen; as long as the stack
+    seen: OUT_I64  # what walks have seen; as long as the stack
     state: OUT_I64  # with the entries above
 
 

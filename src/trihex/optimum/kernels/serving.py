@@ -1,8 +1,9 @@
-"""Robots get their paths: prices rise where robots without path are, until one of them can go to a destination.
+"""Robots get their paths: prices rise where robots without path are, until one of them can go where it is wanted.
 
-The Hungarian method on layers of steps, all robots at once. From an arc to an open destination that has become tight a
-walk goes back along tight arcs for a robot without path, which then goes there. If there is none, some of what rises
-could only be reached by robots that have their paths by now, and what rises is found anew.
+The Hungarian method on layers of steps, all robots at once. From an arc to a wanted side that has become tight a walk
+goes back along tight arcs for a robot without path, which then goes there. What such walks saw in vain stays seen. When
+all tight arcs have been tried and one of them was in vain, some of what rises could only be reached by robots that have
+their paths by now, and what rises is found anew.
 """
 
 from numba import types
@@ -19,6 +20,7 @@ from trihex.optimum.kernels.prices import (
     GRAPH,
     LEAVING,
     LISTED,
+    MARKED,
     NEXT,
     NODES,
     RISE,
@@ -27,11 +29,14 @@ from trihex.optimum.kernels.prices import (
     SEEN,
     SERVED,
     TOTAL,
+    UNTIL,
+    VAIN,
+    WANTED,
     price_of,
     put_word,
     word_of,
 )
-from trihex.optimum.kernels.raising import begin_to_rise, expect_arrival, raise_prices, reach_from
+from trihex.optimum.kernels.raising import begin_to_rise, raise_prices, reach, reach_from
 from trihex.optimum.kernels.residual import (
     BUDGET_SPENT,
     DONE,
@@ -64,7 +69,7 @@ def _tail(side, i, graph, nodes):
         if i > 0 or k < 0:
             return -2, OWN, 0
         head = at + graph.out[node, k, OFFSET]
-        if graph.out[node, k, OTHER] >= graph.first_goal and nodes.flow[head] < graph.capacity:
+        if nodes.entering[head] & WANTED:
             return -2, OWN, 0
         return head * 2 + ENTERING, OWN, -graph.out[node, k, REDUCED]
     if i == into.shape[1]:
@@ -80,30 +85,42 @@ def _tail(side, i, graph, nodes):
 
 
 @HELPER
-def _see(side, via, depth, nodes, search, seen):
-    """Go back to a side; return how many have been seen."""
+def _see(side, via, depth, nodes, search):
+    """Go back to a side."""
+    state = search.state
     put_word(side, word_of(side, nodes) | SEEN, nodes)
-    search.seen[seen] = side
+    search.seen[state[MARKED]] = side
+    state[MARKED] += 1
     search.stack[depth, SIDE], search.stack[depth, TRIED], search.stack[depth, VIA] = side, 0, via
-    return seen + 1
 
 
 @HELPER
-def _walk_back(arrival, graph, nodes, search):
-    """Walk back from an arc to a destination for a robot without path; return how deep it is, and what was seen.
+def _forget(begin, nodes, search):
+    """Forget what walks have seen, from the given entry of the list on."""
+    for i in range(begin, search.state[MARKED]):
+        side = search.seen[i]
+        put_word(side, word_of(side, nodes) & ~SEEN, nodes)
+    search.state[MARKED] = begin
 
-    The depth is -1 if there is none, -2 if a list is full.
+
+@HELPER
+def _walk_back(side, via, graph, nodes, search):
+    """Walk back from the tail of an arc to a wanted side for a robot without path; return how deep it is.
+
+    The depth is -1 if there is none, -2 if the list of what was seen is full.
     """
-    stack, rise, flow = search.stack, search.state[RISE], nodes.flow
-    at = arrival // ARCS
-    seen = _see(at * 2 + (LEAVING if flow[at] != 0 else ENTERING), arrival % ARCS, 0, nodes, search, 0)
-    depth = 0
+    stack, state, flow = search.stack, search.state, nodes.flow
+    begin = state[MARKED]
+    depth = -1
+    if begin < len(search.seen) and not word_of(side, nodes) & SEEN:
+        depth = 0
+        _see(side, via, depth, nodes, search)
     while depth >= 0:
-        if seen == len(search.seen):
-            return -2, seen
         side = stack[depth, SIDE]
         if flow[side >> 1] == START << 4 and side & LEAVING:  # starts here and goes nowhere yet
-            return depth, seen
+            return depth
+        if state[MARKED] == len(search.seen):
+            break
         tail, via, cost = _tail(side, stack[depth, TRIED], graph, nodes)
         stack[depth, TRIED] += 1
         if tail == -2:
@@ -111,10 +128,13 @@ def _walk_back(arrival, graph, nodes, search):
         elif tail >= 0:
             word = word_of(tail, nodes)
             if word & (RISES | SEEN) == RISES:
-                if price_of(word, rise) == cost + price_of(word_of(side, nodes), rise):
+                if price_of(word, state[RISE]) == cost + price_of(word_of(side, nodes), state[RISE]):
                     depth += 1
-                    seen = _see(tail, via, depth, nodes, search, seen)
-    return depth, seen
+                    _see(tail, via, depth, nodes, search)
+    if state[MARKED] == len(search.seen):
+        _forget(begin, nodes, search)
+        return -2
+    return -1
 
 
 @HELPER
@@ -125,6 +145,7 @@ def _lay(depth, graph, nodes, search):
         side, via = stack[depth, SIDE], stack[depth, VIA]
         at = side >> 1
         node = at % len(graph.out)
+        put_word(side, word_of(side, nodes) & ~SEEN, nodes)
         depth -= 1
         if via == OWN:
             if side & LEAVING:  # nobody passes there any more
@@ -132,11 +153,14 @@ def _lay(depth, graph, nodes, search):
             continue
         head = at + graph.out[node, via, OFFSET]
         flow[at] = with_arc_out(flow[at], via)
-        if depth < 0:
-            flow[head] += 1
-        elif graph.out[node, via, OTHER] < graph.first_goal:
+        if graph.out[node, via, OTHER] >= graph.first_goal:
+            if depth < 0:
+                flow[head] += 1
+                if flow[head] >= graph.capacity:
+                    nodes.entering[head] &= ~WANTED
+        else:
             if flow[head] == 0:
-                nodes.leaving[head] = nodes.entering[head]
+                nodes.leaving[head] = nodes.entering[head] & ~SEEN
                 search.sides[search.state[LISTED]] = head * 2 + LEAVING
                 search.state[LISTED] += 1
             flow[head] = with_arc_in(flow[head], graph.out[node, via, PLACE])
@@ -146,12 +170,15 @@ def _lay(depth, graph, nodes, search):
 def _begin_anew(nodes, search):
     """Let rise no longer what no robot without path may come to any more: all but where these robots are."""
     state = search.state
+    _forget(0, nodes, search)
     for i in range(state[LISTED]):
         side = search.sides[i]
-        put_word(side, price_of(word_of(side, nodes), state[RISE]) << BITS, nodes)
+        word = word_of(side, nodes)
+        put_word(side, (price_of(word, state[RISE]) << BITS) | (word & WANTED), nodes)
     search.heads[:] = NONE
     state[FREE] = NONE
-    state[NEXT] = state[LISTED] = state[FILED] = state[ARRIVALS] = 0
+    state[NEXT] = state[LISTED] = state[FILED] = state[ARRIVALS] = state[VAIN] = 0
+    state[UNTIL] = state[RISE] + len(search.heads) - 1
     for start in search.start:
         if nodes.flow[start] == START << 4:
             begin_to_rise(start * 2 + LEAVING, nodes, search)
@@ -159,33 +186,31 @@ def _begin_anew(nodes, search):
 
 @HELPER
 def _serve(arrival, graph, nodes, search):
-    """Let a robot arrive by a tight arc, if one can and the arc is still to be had; return how much was seen."""
+    """Let a robot go to a wanted side by a tight arc, if one can and the arc is still to be had; False if a list is full.
+    """
     state, flow = search.state, nodes.flow
     at, place = arrival // ARCS, arrival % ARCS
     node = at % len(graph.out)
     side = at * 2 + (LEAVING if flow[at] != 0 else ENTERING)
     word = word_of(side, nodes)
     if not word & RISES or arc_out(flow[at]) == place:
-        return 0
-    head = at + graph.out[node, place, OFFSET]
-    if flow[head] >= graph.capacity:  # others arrive there
-        begin_to_rise(head * 2 + ENTERING, nodes, search)
-        return 0
-    slack = graph.out[node, place, REDUCED] - price_of(word, state[RISE])
-    if slack > 0:
-        expect_arrival(at, place, slack, search)
-        return 0
-    depth, seen = _walk_back(arrival, graph, nodes, search)
-    for i in range(seen):
-        put_word(search.seen[i], word_of(search.seen[i], nodes) & ~SEEN, nodes)
-    if depth == -1:
-        _begin_anew(nodes, search)
+        return True
+    head, cost = at * 2, 0
+    if place != OWN:
+        head, cost = (at + graph.out[node, place, OFFSET]) * 2, graph.out[node, place, REDUCED]
+    price = price_of(nodes.entering[head >> 1], state[RISE])
+    if not nodes.entering[head >> 1] & WANTED or price_of(word, state[RISE]) < cost + price:
+        reach(head, arrival, cost, price_of(word, state[RISE]), nodes, search)  # somebody else got there
+        return True
+    depth = _walk_back(side, place, graph, nodes, search)
     if depth < 0:
-        return -1 if depth == -2 else seen
-    state[TOTAL] += price_of(word_of(search.stack[depth, SIDE], nodes), state[RISE])
+        state[VAIN] = 1
+        return depth == -1
+    state[TOTAL] += price_of(word_of(search.stack[depth, SIDE], nodes), state[RISE]) - price
+    nodes.entering[head >> 1] &= ~WANTED if head >> 1 == at or graph.out[node, place, OTHER] < graph.first_goal else -1
     _lay(depth, graph, nodes, search)
     state[SERVED] += 1
-    return seen
+    return True
 
 
 @HELPER
@@ -213,14 +238,16 @@ def serve_at_prices(graph, nodes, search, budget):
                 return LAYERS_FULL
             state[NEXT] += 1
             reach_from(side, graph, nodes, search)
-            continue
-        if state[ARRIVALS] == 0:
+        elif state[ARRIVALS] > 0:
+            state[ARRIVALS] -= 1
+            seen = state[MARKED]
+            if not _serve(search.arrivals[state[ARRIVALS]], graph, nodes, search):
+                state[ARRIVALS] += 1
+                return LIST_FULL
+            budget -= state[MARKED] - seen
+        elif state[VAIN] or state[RISE] == state[UNTIL]:
+            _begin_anew(nodes, search)
+        else:
+            _forget(0, nodes, search)
             raise_prices(nodes, search)
-            continue
-        state[ARRIVALS] -= 1
-        seen = _serve(search.arrivals[state[ARRIVALS]], graph, nodes, search)
-        if seen < 0:
-            state[ARRIVALS] += 1
-            return LIST_FULL
-        budget -= seen
     return BUDGET_SPENT
