@@ -20,7 +20,7 @@ _BUDGET = 500_000
 # Length of the lists at first.
 _LIST = 1 << 16
 # The lists that grow.
-_LISTS = ("sides", "filed", "arrivals", "stack", "seen")
+_LISTS = ("sides", "filed", "arrivals", "vain", "stack", "seen")
 # For how many units to come it is told apart what is tight when.
 _RISES = 1 << 6
 
@@ -41,6 +41,11 @@ def make_flow_at_prices(
     status = None
     while status != DONE:
         status = serve_at_prices(work.graph, work.nodes, work.search, _BUDGET)
+        import os
+        if os.environ.get('DEBUG'):
+            import time
+            st=work.search.state
+            print(f"{time.process_time():.1f}", dict(served=st[0],rise=st[2],listed=st[3],next=st[4],filed=st[5],arr=st[7],marked=st[8],vain=st[9],status=status),flush=True)
         if progress:
             progress(int(work.search.state[SERVED]), cells.size)
         work.make_room(status)
@@ -149,6 +154,7 @@ def _make_search(start: NDArray[np.int64]) -> Any:
         filed=np.empty((4 * length, 2), dtype=np.int64),
         heads=np.full(_RISES, NONE, dtype=np.int64),
         arrivals=np.empty(4 * length, dtype=np.int64),
+        vain=np.empty(4 * length, dtype=np.int64),
         stack=np.empty((length, 3), dtype=np.int64),
         seen=np.empty(length, dtype=np.int64),
         state=state,

@@ -27,9 +27,10 @@ FILED = 5  # entries that have been filed
 FREE = 6  # first of the filed entries that are free again, or NONE
 ARRIVALS = 7  # arcs to wanted sides that have become tight
 MARKED = 8  # sides that walks have seen since prices last rose
-VAIN = 9  # whether one of these walks was in vain
-UNTIL = 10  # the rise after which what rises is found anew, as nothing has been filed for later ones
-STATE_SIZE = 11
+VAIN = 9  # arrivals for which a walk was in vain
+BEFORE = 10  # robots that had a path before these walks
+UNTIL = 11  # the rise after which what rises is found anew, as nothing has been filed for later ones
+STATE_SIZE = 12
 
 
 class PricedNodes(NamedTuple):
@@ -48,6 +49,7 @@ class PricedSearch(NamedTuple):
     filed: LOG  # what will be tight later, each with the next one of that time, or NONE
     heads: OUT_I64  # first of those filed for each rise, modulo its length, or NONE
     arrivals: OUT_I64  # arcs to wanted sides, index * `ARCS` + place
+    vain: OUT_I64  # those for which a walk was in vain; as long as the list of all
     stack: LOG  # the walk in depth: side, arc that is tried next, arc by which it leads on
     seen: OUT_I64  # what walks have seen; as long as the stack
     state: OUT_I64  # with the entries above

@@ -13,6 +13,7 @@ from trihex.optimum.kernels.flow_byte import START, arc_out, with_arc_in, with_a
 from trihex.optimum.kernels.prices import (
     ARCS,
     ARRIVALS,
+    BEFORE,
     BITS,
     ENTERING,
     FILED,
@@ -166,6 +167,16 @@ def _lay(depth, graph, nodes, search):
             flow[head] = with_arc_in(flow[head], graph.out[node, via, PLACE])
 
 
+@HELPER
+def _try_again(nodes, search):
+    """Forget what walks have seen, and list again the arrivals for which they were in vain."""
+    state = search.state
+    _forget(0, nodes, search)
+    for i in range(state[VAIN]):
+        search.arrivals[i] = search.vain[i]
+    state[ARRIVALS], state[VAIN], state[BEFORE] = state[VAIN], 0, state[SERVED]
+
+
 @APART
 def _begin_anew(nodes, search):
     """Let rise no longer what no robot without path may come to any more: all but where these robots are."""
@@ -178,6 +189,7 @@ def _begin_anew(nodes, search):
     search.heads[:] = NONE
     state[FREE] = NONE
     state[NEXT] = state[LISTED] = state[FILED] = state[ARRIVALS] = state[VAIN] = 0
+    state[BEFORE] = state[SERVED]
     state[UNTIL] = state[RISE] + len(search.heads) - 1
     for start in search.start:
         if nodes.flow[start] == START << 4:
@@ -204,7 +216,9 @@ def _serve(arrival, graph, nodes, search):
         return True
     depth = _walk_back(side, place, graph, nodes, search)
     if depth < 0:
-        state[VAIN] = 1
+        if depth == -1:
+            search.vain[state[VAIN]] = arrival
+            state[VAIN] += 1
         return depth == -1
     state[TOTAL] += price_of(word_of(search.stack[depth, SIDE], nodes), state[RISE]) - price
     nodes.entering[head >> 1] &= ~WANTED if head >> 1 == at or graph.out[node, place, OTHER] < graph.first_goal else -1
@@ -218,7 +232,7 @@ def _is_full(graph, search):
     """Tell whether a list may have no room for what comes next."""
     state = search.state
     more = graph.out.shape[1] + graph.into.shape[1]
-    most = max(state[LISTED], state[ARRIVALS], state[FILED])
+    most = max(state[LISTED], state[ARRIVALS] + state[VAIN], state[FILED])
     return most + more + len(search.seen) > len(search.sides)
 
 
@@ -245,9 +259,11 @@ def serve_at_prices(graph, nodes, search, budget):
                 state[ARRIVALS] += 1
                 return LIST_FULL
             budget -= state[MARKED] - seen
+        elif state[VAIN] and state[SERVED] > state[BEFORE]:
+            _try_again(nodes, search)
         elif state[VAIN] or state[RISE] == state[UNTIL]:
             _begin_anew(nodes, search)
         else:
-            _forget(0, nodes, search)
+            _try_again(nodes, search)
             raise_prices(nodes, search)
     return BUDGET_SPENT
