@@ -16,6 +16,9 @@ _FCOST = (*_GREEDY, *_REPAIR, "planners.fcost", "planners.slots", "planners.lane
 _TIMELY = (*_DIRECTIONS, "planners.timely", "planners.tick_rows", "planners.slots", "plans.replay")
 _ASTAR = (*_FIELD, "areas.moves", "planners.astar", "planners.reservations", "plans.replay")
 _OPTIMUM = (*_FIELD, "areas.moves", "fields.steps", "optimum.paths", "optimum.single", "plans.replay")
+_PRICED = tuple(
+    f"optimum.{name}" for name in ("lowering", "prices", "queues", "raising", "serving", "tolled", "walking")
+)
 _BOUND = ("areas.moves", "fields.steps", "bounds.cuts", "bounds.gates", "bounds.meetings", "bounds.serving")
 _EXECUTION = (*_REPAIR, "running.stepping", "running.lines")
 
@@ -30,7 +33,7 @@ KERNELS_OF: dict[str, tuple[str, ...]] = {
     "timely greedy": _TIMELY,
     "timely fcost": (*_TIMELY, *_REPAIR, "planners.lanes", "planners.laying"),
     "optimal": _OPTIMUM,  # and, where robots crowd, one of two more: `trihex.planners.uses_of`
-    "optimal_crowd": (*_OPTIMUM, "optimum.prices", "optimum.raising", "optimum.serving"),
+    "optimal_crowd": (*_OPTIMUM, *_PRICED),
     "optimal_earliest": (*_OPTIMUM, *_FCOST, "optimum.earliest", "optimum.laid"),
     "certificate": (*_FIELD, "areas.moves", "fields.steps", "optimum.laid", "optimum.tolls", "plans.replay"),
     "straight": (*_ASTAR, "planners.straight"),

@@ -1,4 +1,4 @@
-"""Priced flow: the flow of least cost where robots crowd and moves differ in cost, from prices that rise."""
+"""Priced flow: the flow of least cost where robots crowd and moves differ in cost, from prices of arrivals."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from trihex.memory import limit_or_default
 from trihex.optimum.flow import Flow
 from trihex.optimum.network import Network
+from trihex.optimum.queues import price_arrivals
 from trihex.optimum.workspace import SPARE_LAYERS, check_memory, layer_of, least_layers, longer, start_nodes
 
 # Bytes for each node of a layer: flow and two prices.
@@ -21,8 +22,11 @@ _BUDGET = 500_000
 _LIST = 1 << 16
 # The lists that grow.
 _LISTS = ("sides", "filed", "arrivals", "vain", "stack", "seen")
-# For how many units to come it is told apart what is tight when.
-_RISES = 1 << 6
+# For how many units to come it is told apart what is tight when, at most and at first.
+_RISES, _AHEAD = 1 << 12, 16
+# How many of the least costs of a step arrivals are priced below what they are worth if robots met nowhere else. What is
+# too cheap is soon mended, what is too dear takes a search for everybody who does not come.
+_REBATE = 1
 
 
 def make_flow_at_prices(
@@ -33,27 +37,23 @@ def make_flow_at_prices(
     memory_limit: int | None = None,
 ) -> Flow:
     """Find paths of least total cost; for parameters and errors see `trihex.optimum.make_flow_singly`."""
+    from trihex.optimum.kernels.lowering import lower_prices
     from trihex.optimum.kernels.prices import SERVED, TOTAL
     from trihex.optimum.kernels.residual import DONE
     from trihex.optimum.kernels.serving import serve_at_prices
 
     work = _PricedWork(network, cells, memory_limit)
+    wanted = work.lay_tolls()
     status = None
     while status != DONE:
         status = serve_at_prices(work.graph, work.nodes, work.search, _BUDGET)
-        import os
-        if os.environ.get('DEBUG'):
-            import time
-            st=work.search.state
-            print(f"{time.process_time():.1f}", dict(served=st[0],rise=st[2],listed=st[3],next=st[4],filed=st[5],arr=st[7],marked=st[8],vain=st[9],status=status),flush=True)
         if progress:
             progress(int(work.search.state[SERVED]), cells.size)
         work.make_room(status)
-    if hasattr(work,'wanted'):
-        from trihex.optimum.kernels import prices as pk
-        left=work.wanted[(work.nodes.entering[work.wanted]&pk.WANTED)!=0]
-        st=work.search.state
-        print('left over', left.size, [(int(x)//network.node_count,network.hops[int(x)%network.node_count]) for x in left[:20]],'rise',st[pk.RISE])
+    status = None
+    while status != DONE:
+        status = lower_prices(wanted, work.graph, work.nodes, work.search)
+        work.make_room(status)
     total = int(work.search.state[TOTAL]) + int(network.value[cells].sum(dtype=np.int64))
     return Flow(network, work.search.start, work.nodes.flow, total * network.unit)
 
@@ -75,11 +75,36 @@ class _PricedWork:
         size = self.layers * network.node_count
         self.graph = layer_of(network)
         self.nodes = kernels.PricedNodes(*(np.zeros(size, dtype) for dtype in (np.uint8, np.int32, np.int32)))
+        self._want_goals(0)
         self.search = _make_search(start_nodes(network, cells))
         self.nodes.flow[self.search.start] = START << 4
-        self._want_goals(0)
-        self.lay_tolls()
-        self.nodes.leaving[self.search.start] = self.nodes.entering[self.search.start] | kernels.RISES
+        self.nodes.leaving[self.search.start] = kernels.RISES
+
+    def lay_tolls(self) -> NDArray[np.int64]:
+        """Begin with prices at which arrivals cost a little less than they will; return nodes where tolls are due."""
+        from trihex.kernels.signatures import given
+        from trihex.optimum.kernels import tolled as kernels
+        from trihex.optimum.kernels.prices import BITS, RISES, TOTAL, WANTED
+
+        network = self.network
+        prices = price_arrivals(network, self.cells, self.layers)
+        tolls = np.maximum(prices - _REBATE * network.base, 0)
+        arcs = np.count_nonzero(network.in_arcs[network.first_destination :, :, 0], axis=1)
+        tolled = given(
+            kernels.Tolled,
+            order=network.order,
+            hops=network.hops,
+            cell_count=network.cell_count,
+            tolls=tolls.astype(np.int32),
+            is_limited=network.room < arcs,
+        )
+        if tolls.any():
+            for layer in range(self.layers - 1, -1, -1):
+                self.search.state[TOTAL] += kernels.lay_tolls(self.graph, self.nodes, tolled, layer)
+            self.nodes.leaving[self.search.start] |= RISES
+        entering: NDArray[np.int32] = self.nodes.entering
+        is_goal = np.arange(entering.size) % network.node_count >= network.first_destination
+        return np.flatnonzero((entering & WANTED != 0) & (~is_goal | (entering >> BITS > 0)))
 
     def make_room(self, status: int) -> None:
         """Make room for what a search ended for; refuse it if there is none."""
@@ -99,38 +124,11 @@ class _PricedWork:
             self.layers += more
             self._want_goals(self.layers - more)
 
-    def lay_tolls(self):
-        import os, time
-        t=time.process_time()
-        from trihex.optimum.queues import price_arrivals
-        from trihex.optimum.kernels import queues as kernels
-        from trihex.optimum.kernels import prices as pk
-        from trihex.kernels.signatures import given
-        if os.environ.get('NOTOLL'): return
-        n=self.network
-        price,taken=price_arrivals(n,self.cells,self.layers)
-        t1=time.process_time()
-        m=int(os.environ.get('MARGIN',n.base)); first=int(os.environ.get('FIRST','0'))
-        toll=np.maximum(price-m,0)
-        for j in range(toll.shape[1]):
-            full=taken[:,j]>=n.room[j]
-            last=np.flatnonzero(~full & (toll[:,j]>0))
-            T1=max(last.max(initial=-1)+1, np.flatnonzero(full).min(initial=0))+first
-            toll[:T1,j]=0
-            print('goal',j,'T1',T1,'tolled',(toll[:,j]>0).sum(), 'max',toll[:,j].max())
-        ways=given(kernels.Ways, order=n.order, hops=n.hops, cells=self.cells)
-        self.search.state[pk.TOTAL]=kernels.lay_prices(self.graph,ways,toll.astype(np.int32),self.nodes.flow,self.nodes.entering)
-        self.wanted=np.flatnonzero((self.nodes.entering & pk.WANTED)!=0)
-        self.wanted=self.wanted[self.wanted%n.node_count<n.first_destination]
-        print('wanted',self.wanted.size,'seconds',t1-t,time.process_time()-t1)
-        self.toll=toll
-
     def _want_goals(self, first: int) -> None:
         """Let paths end at the destinations of all layers from the first one on."""
         from trihex.optimum.kernels.prices import WANTED
 
-        goals = slice(self.network.first_destination, None)
-        self.nodes.entering.reshape(self.layers, -1)[first:, goals] = WANTED
+        self.nodes.entering.reshape(self.layers, -1)[first:, self.network.first_destination :] = WANTED
 
     def _check_memory(self, layers: int, list_bytes: int = 0) -> None:
         need = layers * self.network.node_count * _BYTES_PER_NODE + list_bytes
@@ -146,7 +144,7 @@ def _make_search(start: NDArray[np.int64]) -> Any:
     length = max(_LIST, start.size)
     state = np.zeros(kernels.STATE_SIZE, dtype=np.int64)
     state[kernels.LISTED], state[kernels.FREE] = start.size, NONE
-    state[kernels.UNTIL] = _RISES - 1
+    state[kernels.AHEAD] = state[kernels.UNTIL] = min(_AHEAD, _RISES - 1)
     search = given(
         kernels.PricedSearch,
         start=start,
