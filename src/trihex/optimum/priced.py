@@ -24,8 +24,8 @@ _LIST = 1 << 16
 _LISTS = ("sides", "filed", "arrivals", "vain", "stack", "seen")
 # For how many units to come it is told apart what is tight when, at most and at first.
 _RISES, _AHEAD = 1 << 12, 16
-# How many of the least costs of a step arrivals are priced below what they are worth if robots met nowhere else. What is
-# too cheap is soon mended, what is too dear takes a search for everybody who does not come.
+# By how many of the least costs of a step arrivals are cheaper than if robots met nowhere else. What is too cheap is
+# soon mended, what is too dear takes a search for everybody who does not come.
 _REBATE = 1
 
 
@@ -73,7 +73,7 @@ class _PricedWork:
         self.layers = least_layers(network, cells) + SPARE_LAYERS
         self._check_memory(self.layers)
         size = self.layers * network.node_count
-        self.graph = layer_of(network)
+        self.graph = _slim(layer_of(network))
         self.nodes = kernels.PricedNodes(*(np.zeros(size, dtype) for dtype in (np.uint8, np.int32, np.int32)))
         self._want_goals(0)
         self.search = _make_search(start_nodes(network, cells))
@@ -133,6 +133,16 @@ class _PricedWork:
     def _check_memory(self, layers: int, list_bytes: int = 0) -> None:
         need = layers * self.network.node_count * _BYTES_PER_NODE + list_bytes
         check_memory(self.network, self.cells, layers, need, self.limit)
+
+
+def _slim(layer: Any) -> Any:
+    """Return a layer with the columns of arcs that are used here, so that the arcs of a node lie closer together."""
+    from trihex.kernels.signatures import given
+    from trihex.optimum.kernels.residual import OFFSET, PLACE, REDUCED, Layer
+
+    columns = slice(OFFSET, max(OFFSET, PLACE, REDUCED) + 1)
+    tables = (np.ascontiguousarray(table[:, :, columns]) for table in (layer.out, layer.into))
+    return given(Layer, *tables, layer.first_goal, layer.capacity)
 
 
 def _make_search(start: NDArray[np.int64]) -> Any:

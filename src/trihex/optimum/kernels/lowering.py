@@ -73,7 +73,7 @@ def _come(at, depth, graph, nodes, search):
 
 @kernel(types.int64(IN_I64, GRAPH, NODES, SEARCH))
 def lower_prices(wanted, graph, nodes, search):
-    """Let somebody come to one of the nodes, or lower prices, all robots having their paths; to be called until done."""
+    """Let somebody come to one of the nodes, or lower prices, all robots having paths; to be called until done."""
     settle(nodes, search)
     is_done = True
     for at in wanted:
