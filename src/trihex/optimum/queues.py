@@ -49,7 +49,7 @@ def _find_costs(network: Network, cells: NDArray[np.int64], steps: int) -> NDArr
     from trihex.optimum.kernels.residual import ROWS
 
     goals = range(network.first_destination, network.node_count)
-    ways = given(kernels.Ways, order=network.order, hops=network.hops, cells=cells)
+    ways = given(kernels.SlotWays, order=network.order, hops=network.hops, cells=cells)
     costs = np.full((cells.size, steps * len(goals)), kernels.NEVER, dtype=np.int32)
     layers = np.empty((int(network.out_arcs[:, :, ROWS].max(initial=0)) + 1, network.node_count), dtype=np.int32)
     for goal in goals:

@@ -15,7 +15,7 @@ NEVER = 1 << 29
 TABLE = types.Array(types.int32, 2, "C")
 
 
-class Ways(NamedTuple):
+class SlotWays(NamedTuple):
     """Nodes of a layer, and those where robots start."""
 
     order: IN_I32  # so that arcs within a layer go forward
@@ -40,7 +40,7 @@ class Sharing(NamedTuple):
     done: OUT_BOOL
 
 
-WAYS, SHARING = declared(Ways), declared(Sharing)
+WAYS, SHARING = declared(SlotWays), declared(Sharing)
 
 
 @kernel(types.void(LAYER, WAYS, types.int64, TABLE, TABLE, types.int64))
