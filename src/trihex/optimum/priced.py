@@ -79,6 +79,7 @@ class _PricedWork:
         self.search = _make_search(start_nodes(network, cells))
         self.nodes.flow[self.search.start] = START << 4
         self.nodes.leaving[self.search.start] = kernels.RISES
+        self.nodes.entering[self.search.start] = kernels.PASSED
 
     def lay_tolls(self) -> NDArray[np.int64]:
         """Begin with prices at which arrivals cost a little less than they will; return nodes where tolls are due."""
@@ -163,7 +164,7 @@ def _make_search(start: NDArray[np.int64]) -> Any:
         heads=np.full(_RISES, NONE, dtype=np.int64),
         arrivals=np.empty(4 * length, dtype=np.int64),
         vain=np.empty(4 * length, dtype=np.int64),
-        stack=np.empty((length, 3), dtype=np.int64),
+        stack=np.empty((length, 4), dtype=np.int64),
         seen=np.empty(length, dtype=np.int64),
         state=state,
     )

@@ -36,11 +36,11 @@ def _is_missed(at, graph, nodes):
 def _slack(side, graph, nodes):
     """Return by how much a side that a walk has seen can fall until it has seen more."""
     price = word_of(side, nodes) >> BITS
-    is_goal = side & 1 == ENTERING and (side >> 1) % len(graph.out) >= graph.first_goal
-    least = price if is_goal else 1 << 29
+    node = (side >> 1) % len(graph.out)
+    least = price if node >= graph.first_goal else 1 << 29
     i = 0
     while True:
-        other, _, cost = tail(side, i, graph, nodes)
+        other, _, cost = tail(side, node, i, graph, nodes)
         if other == -2:
             return least
         if other >= 0 and not word_of(other, nodes) & SEEN:

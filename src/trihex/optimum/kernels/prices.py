@@ -14,8 +14,9 @@ from trihex.optimum.kernels.residual import LOG, Layer
 
 ENTERING, LEAVING = 0, 1
 # The word of a side: its price, less the rise so far if it rises, shifted by `BITS`; whether it rises; whether a walk
-# has seen it since prices last rose; and whether it is *wanted*, that is, a path may end there.
-RISES, SEEN, WANTED, BITS = 1, 2, 4, 3
+# has seen it since prices last rose; and of the side that is entered, whether it is *wanted*, that is, a path may end
+# there, and whether the node carries flow, unless it is a destination.
+RISES, SEEN, WANTED, PASSED, BITS = 1, 2, 4, 8, 4
 
 # Entries of the state.
 SERVED = 0  # robots with a path

@@ -14,6 +14,7 @@ from trihex.optimum.kernels.prices import (
     FREE,
     LEAVING,
     LISTED,
+    PASSED,
     RISE,
     RISES,
     UNTIL,
@@ -31,7 +32,7 @@ def begin_to_rise(side, nodes, search):
     state = search.state
     word = word_of(side, nodes)
     if not word & RISES:
-        put_word(side, (((word >> BITS) - state[RISE]) << BITS) | RISES, nodes)
+        put_word(side, (((word >> BITS) - state[RISE]) << BITS) | (word & PASSED) | RISES, nodes)
         search.sides[state[LISTED]] = side
         state[LISTED] += 1
 
@@ -94,14 +95,15 @@ def _enter(at, node, price, graph, nodes, search):
 def reach_from(side, graph, nodes, search):
     """Let rise, now or later, what can be reached from a side."""
     out, at = graph.out, side >> 1
-    node, flow = at % len(out), nodes.flow[at]
-    price = price_of(word_of(side, nodes), search.state[RISE])
-    if side & 1 == ENTERING and (flow != 0 or node >= graph.first_goal):
+    node, word, taken = at % len(out), word_of(side, nodes), NONE
+    price = price_of(word, search.state[RISE])
+    if word & PASSED or node >= graph.first_goal:
         _enter(at, node, price, graph, nodes, search)
         return
-    if side & LEAVING and arc_in(flow) != START - 1:
-        reach(at * 2 + ENTERING, at * ARCS + OWN, 0, price, nodes, search)
-    taken = arc_out(flow)
+    if side & LEAVING:
+        taken = arc_out(nodes.flow[at])
+        if arc_in(nodes.flow[at]) != START - 1:
+            reach(at * 2 + ENTERING, at * ARCS + OWN, 0, price, nodes, search)
     for k in range(out.shape[1]):
         head = at + out[node, k, OFFSET]
         if head == at:

@@ -26,6 +26,7 @@ from trihex.optimum.kernels.prices import (
     MARKED,
     NEXT,
     NODES,
+    PASSED,
     RISE,
     RISES,
     SEARCH,
@@ -71,7 +72,7 @@ def settle(nodes, search):
     for i in range(state[LISTED]):
         side = search.sides[i]
         word = word_of(side, nodes)
-        put_word(side, (price_of(word, state[RISE]) << BITS) | (word & WANTED), nodes)
+        put_word(side, (price_of(word, state[RISE]) << BITS) | (word & (WANTED | PASSED)), nodes)
     search.heads[:] = NONE
     state[FREE] = NONE
     state[NEXT] = state[LISTED] = state[FILED] = state[ARRIVALS] = state[VAIN] = 0

@@ -10,7 +10,7 @@ from numba import types
 
 from trihex.kernels.signatures import HELPER, IN_BOOL, IN_I32, declared, kernel
 from trihex.optimum.kernels.flow_byte import with_arc_out
-from trihex.optimum.kernels.prices import BITS, NODES, WANTED
+from trihex.optimum.kernels.prices import BITS, NODES, PASSED, WANTED
 from trihex.optimum.kernels.residual import LAYER, OFFSET, REDUCED
 
 # More than any way costs.
@@ -61,14 +61,15 @@ def lay_tolls(graph, nodes, tolled, layer):
             nodes.entering[at] = -NEVER << BITS
             continue
         place, least = _best_arc(at, node, graph, nodes)
-        nodes.entering[at] = nodes.leaving[at] = least << BITS
+        nodes.entering[at] = (least << BITS) | (nodes.entering[at] & PASSED)
+        nodes.leaving[at] = least << BITS
         head = at + graph.out[node, place, OFFSET]
         goal = head % size - graph.first_goal
         if goal < 0 or head >= len(nodes.flow) or nodes.flow[at] != 0 or tolled.is_limited[goal]:
             continue
         toll = tolled.tolls[head // size, goal]
         if toll > 0:
-            nodes.entering[at] = ((least + toll) << BITS) | WANTED
+            nodes.entering[at] = ((least + toll) << BITS) | WANTED | PASSED
             nodes.flow[at] = with_arc_out(0, place)
             nodes.flow[head] += 1
             laid += least
