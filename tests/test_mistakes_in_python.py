@@ -23,6 +23,7 @@ CASES = {
     "places between cells": ("area.xy_to_cell(2.5, 1)", "x must be whole numbers, the column or row of a cell, not 2.5"),
     "barrier on a destination": ("field.change(blocked=(5, 3))", "a cell must not be blocked while it is a destination: (5, 3)"),
     "axial coordinates of squares": ("area.with_tessellation('square').cell_to_axial(0)", "axial and cube coordinates are of hexagons; the area is square"),
+    "start times of some": ("th.Scenario(area, (5, 3), [(0, 3), (1, 3)], start_times=[3])", "start_times must be one for each of 2 robots, not 1"),
     # areas
     "area of floats": ("th.Area('hexagonal', [[0.2, 0.7]])", "barriers must be True and False, or 1 and 0, not 0.2: say which values are barriers, such as grid > 0"),
     "area of grey values": ("th.Area('hexagonal', np.full((2, 2), 255))", "barriers must be True and False, or 1 and 0, not 255: say which values are barriers, such as grid > 0"),

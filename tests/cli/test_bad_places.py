@@ -105,6 +105,8 @@ CASES = {
     "metres in an area of cells": (None, ["plan", "world.txt", "--destination", "2,2m", *ROBOTS], "--destination: the area is measured in cells, not in metres; give it a frame (cell_size)"),
     "start outside, in metres": ("x_metres,y_metres\n1.2,2.2\n20,2\n", [*PLAN[:-4], "--planner", "greedy", "--starts", "bad"], "bad: line 3: point (20, 2) metres lies outside the area"),
     "start in words": ("x_metres,y_metres\n1.2,two\n", [*PLAN[:-4], "--planner", "greedy", "--starts", "bad"], "bad: line 2: must be two numbers, not '1.2,two'"),
+    "start time below 0": ("x,y,start\n1,1,-2\n", ["plan", "world.txt", "--planner", "greedy", "--starts", "bad"], "bad: line 2: start must be a number from 0, not '-2'"),
+    "start times of no law": (None, ["plan", "world.txt", "--planner", "greedy", "--robots", "1", "--start-times", "gauss:3,1"], "start times must be drawn as one of constant:time, uniform:least,most, normal:mean,sd, lognormal:mean,sd, such as 'lognormal:30,15', not 'gauss:3,1'"),
     "scen of another map": ("version 1\n0\ta.map\t9\t9\t0\t0\t1\t1\t2\n", ["plan", "world.txt", "--planner", "greedy", "--starts", "bad"], "bad: line 2: is for an area of 9 x 9 cells, not of 3 x 2"),
     "scen with a column too few": ("version 1\n0\ta.map\t3\t2\t0\t0\t1\t1\n", ["plan", "world.txt", "--planner", "greedy", "--starts", "bad"], "bad: line 2: must have 9 columns *, not 8"),
     # outputs

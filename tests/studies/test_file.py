@@ -202,18 +202,21 @@ def test_areas_in_metres_can_have_cells_of_equal_area(tmp_path):
         assert row["free_cells"] == pytest.approx(108 / 0.25, rel=0.25)
 
 
-def test_the_rule_of_a_run_decides_on_the_least_cells_for_robots(tmp_path):
+def test_the_rules_of_a_run_decide_on_the_least_cells_for_robots(tmp_path):
     (tmp_path / "hall.wkt").write_text("POLYGON ((0 0, 5 0, 5 4, 0 4, 0 0))")
-    text = 'robots = [3]\nrules = [{following = "forbid"}, {following = "allow"}]\n'
-    text += '[[areas]]\npath = "hall.wkt"\nrobot_radius = 0.1\n'
+    head = 'robots = [3]\nrules = [{following = "forbid"}, {following = "allow"}]\n'
+    text = head + '[[areas]]\npath = "hall.wkt"\nrobot_radius = 0.1\n'
     sized = '[[areas]]\npath = "hall.wkt"\ncell_size = 0.5\nrobot_radius = 0.1\n'
     rows = th.run_study(written(tmp_path, text + sized))
     assert [(row["following"], row["cell_size"]) for row in rows] == [
         ("forbid", 0.231), ("allow", 0.4), ("forbid", 0.5), ("allow", 0.5),
     ]  # fmt: skip
+    timed = 'robots = [2]\nrules = [{clock = "costs"}, {clock = "steps"}]\ntessellations = ["square"]\n'
+    rows = th.run_study(written(tmp_path, timed + '[[areas]]\npath = "hall.wkt"\nrobot_radius = 0.1\n'))
+    assert [(row["clock"], row["cell_size"]) for row in rows] == [("costs", 0.4334), ("steps", 0.4473)]
     # A place with room by one rule alone is no mistake of the file: told at once only where the first rule has none.
     (tmp_path / "hall.wkt").write_text("POLYGON ((0 0, 0.35 0, 0.35 0.35, 0 0.35, 0 0))")
-    th.read_study(written(tmp_path, text.split('[[areas]]\npath = "hall.wkt"\ncell_size')[0]))
+    th.read_study(written(tmp_path, text))
 
 
 def test_what_a_file_of_letters_names_is_used(tmp_path):

@@ -9,3 +9,6 @@ from .bounds import (
     make_lower_bound as make_lower_bound,
     slot_bound as slot_bound,
 )
+from .chokes import (
+    choke_cells as choke_cells,
+)

@@ -6,7 +6,8 @@ docs/bounds.md.
 Where the clock is "costs" t_r is the tick of arrival; all bounds are bounds on arrivals then. Else a bound on *steps*
 becomes one on costs so: let m be the least that a step can cost, min(w_t, cheapest move), and 0 <= u <= m. Charge u for
 each step; what is left of a move is its cost less u, and of a wait w_t less u, neither negative. So t_r >= u * (steps
-of r) + (least sum of what is left on a way of r), for every u alike.
+of r) + (least sum of what is left on a way of r), for every u alike. Where r may not begin to move before step s, it
+has waited s times, and what is left of these waits is paid, too.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from numpy.typing import NDArray
 from trihex.areas import Scenario
 from trihex.bounds.cuts import Cut, find_cuts
 from trihex.bounds.demand import Demand, make_demand
+from trihex.bounds.doors import arrivals_past_doors, hold_up_at_exits
 from trihex.bounds.gates import GateNetwork, make_gate_network
 from trihex.bounds.meetings import find_meeting_nodes
 from trihex.bounds.queues import queue_past_cuts
@@ -77,10 +79,22 @@ def make_lower_bound(n_scheme: NScheme, *, progress: Callable[[int, int], None] 
 
 
 def distance_bound(n_scheme: NScheme) -> LowerBound:
-    """Sum of the N-scheme's values: nobody ever waits."""
+    """Sum of the N-scheme's values: nobody ever waits but until its start time."""
     check_type("n_scheme", n_scheme, NScheme)
+    scenario = n_scheme.scenario
+    return LowerBound("distance", _distances(n_scheme) + scenario.waiting_cost * _waits_before_starts(n_scheme))
+
+
+def _distances(n_scheme: NScheme) -> int:
+    """Return the sum of the distances of the robots that can arrive."""
     distance = n_scheme.distance_of_cell(n_scheme.scenario.robots).astype(np.int64)
-    return LowerBound("distance", int(distance[distance != NOT_REACHED].sum()))
+    return int(distance[distance != NOT_REACHED].sum())
+
+
+def _waits_before_starts(n_scheme: NScheme) -> int:
+    """Return how many steps (ticks) robots that can arrive wait in all until they may begin to move."""
+    distance = n_scheme.distance_of_cell(n_scheme.scenario.robots)
+    return int(n_scheme.scenario.start_times[(distance > 0) & (distance != NOT_REACHED)].sum())
 
 
 def slot_bound(n_scheme: NScheme) -> LowerBound:
@@ -93,6 +107,7 @@ def slot_bound(n_scheme: NScheme) -> LowerBound:
     demand = make_demand(n_scheme)
     slots = np.sort(demand.steps)
     queue_up(slots, entry_headways(demand.nodes))
+    hold_up_at_exits(demand, slots)
     return LowerBound("slot", _least_cost(n_scheme, int(slots.sum())))
 
 
@@ -121,6 +136,9 @@ def _steps_past_gates(demand: Demand, most_gates: int, progress: Callable[[int, 
     if entries.size * demand.nodes.count <= _MOST_SENT:
         cuts = find_cuts(demand, most_searches=_MOST_VISITS // (4 * free_cells) + 1)
     queued = queue_past_cuts(demand, cuts, entries)
+    if demand.scenario.has_flows:
+        np.maximum(queued, arrivals_past_doors(demand), out=queued)
+        hold_up_at_exits(demand, queued)
     visits = min(_MOST_VISITS, _VISITS_PER_ROBOT * demand.sites.size)
     gates = _choose_gates(demand, cuts, min(most_gates, visits // free_cells))
     horizon = int(queued.max(initial=0)) * 5 // 4 + 100
@@ -158,18 +176,27 @@ def _arrivals_past_gates(
     duration = demand.scenario.duration_of_direction
     left = np.full(demand.sites.size - served.size, last + 1 - int(duration.max() - duration.min()))
     queue_up(left, entries)
+    hold_up_at_exits(demand, left)
     return np.concatenate([served, np.maximum(left, last + 1)])
 
 
 def _choose_gates(demand: Demand, cuts: list[Cut], most: int) -> NDArray[np.int32]:
     """Return up to `most` nodes: the cut for all robots, those with the longest queues, the nodes where most meet."""
-    gates = np.empty(0, dtype=np.int32)
+    gates = _doors(demand, most // 2)
     for cut in cuts[-1:] + sorted(cuts[:-1], key=lambda cut: -cut.behind.size / cut.width):
         more = np.union1d(gates, cut.nodes)
         if more.size <= most:
             gates = more
     more_gates = min(most - gates.size, most // 2)
     return np.union1d(gates, find_meeting_nodes(demand, more_gates)) if more_gates > 3 else gates
+
+
+def _doors(demand: Demand, most: int) -> NDArray[np.int32]:
+    """Return the doors that robots can pass, if they are no more than so many."""
+    sites = np.sort(demand.scenario.area.layout.cell_to_site(demand.scenario.schedule.cells)).astype(np.int32)
+    sites = sites[demand.nodes.steps_of_site[sites] >= 0]
+    is_few = demand.scenario.is_stepwise and demand.nodes.places(sites).sum() <= most
+    return sites if is_few else sites[:0]
 
 
 def _at_robots(n_scheme: NScheme, field: NDArray[np.int32]) -> NDArray[np.int64]:
@@ -184,8 +211,11 @@ def _least_cost(n_scheme: NScheme, steps: int) -> int:
     scenario = n_scheme.scenario
     if scenario.clock == "costs":
         return steps
-    cost = scenario.area.tessellation.cost_of_direction
-    return max(share * steps + _rest(n_scheme, cost - np.int32(share)) for share in _shares(scenario))
+    cost, forced = scenario.area.tessellation.cost_of_direction, _waits_before_starts(n_scheme)
+    return max(
+        share * steps + (scenario.waiting_cost - share) * forced + _rest(n_scheme, cost - np.int32(share))
+        for share in _shares(scenario)
+    )
 
 
 def _shares(scenario: Scenario) -> Iterable[int]:
@@ -206,7 +236,7 @@ def _rest(n_scheme: NScheme, cost: NDArray[np.int32]) -> int:
     scenario = n_scheme.scenario
     layout = scenario.area.layout
     if (cost == cost[0]).all():
-        return distance_bound(n_scheme).value * int(cost[0]) // scenario.area.tessellation.edge_cost
+        return _distances(n_scheme) * int(cost[0]) // scenario.area.tessellation.edge_cost
     least = np.full(layout.size, NOT_REACHED, dtype=np.int32)
     queue = np.empty(scenario.area.free_count + 1, dtype=np.int32)
     is_queued = np.zeros(layout.size, dtype=bool)

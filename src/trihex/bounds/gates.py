@@ -20,6 +20,8 @@ class GateNetwork(Record):
 
     Parameters
     ----------
+    site, copy : int32 arrays, shape (gates,)
+        The site that each gate is (-1: a lattice vertex), and which of its copies, from 0.
     gap : int32 array, shape (gates,)
         How many ticks there are at least between two robots that pass a gate.
     steps_out : int32 array, shape (gates,)
@@ -28,13 +30,15 @@ class GateNetwork(Record):
         Gate g is entered from gate ``arc_gate[a]`` no sooner than ``arc_steps[a]`` steps later, for a in
         ``first_arc[g]:first_arc[g + 1]``.
     first_robot, robot, robot_steps : arrays
-        Likewise by robots after their start, the nearest first.
+        Likewise by robots after step 0, the earliest first.
     robot_count : int
         Number of robots in the lists.
     free_steps : int64 array
         Least number of ticks of each robot that passes no gate.
     """
 
+    site: NDArray[np.int32]
+    copy: NDArray[np.int32]
     gap: NDArray[np.int32]
     steps_out: NDArray[np.int32]
     first_arc: NDArray[np.int64]
@@ -52,6 +56,11 @@ def make_gate_network(demand: Demand, nodes: NDArray[np.int32]) -> GateNetwork:
     return _Survey(demand, np.unique(nodes)).network()
 
 
+def robots_past(demand: Demand, nodes: NDArray[np.int32]) -> NDArray[np.bool_]:
+    """Tell of each robot whether it can only arrive past one of `nodes`, or starts there."""
+    return _Survey(demand, np.unique(nodes)).robots_past()
+
+
 class _Survey:
     """The searches of `make_gate_network`, which share their arrays."""
 
@@ -65,7 +74,7 @@ class _Survey:
         # Only a destination passes more than one robot: it stands in the list once for each of them.
         self.is_destination = np.zeros(nodes.size, dtype=bool)
         self.is_destination[nodes < size] = demand.nodes.is_destination[nodes[nodes < size]]
-        self.copies = np.where(self.is_destination, max(demand.scenario.entry_limit, 1), 1)
+        self.copies = demand.nodes.places(nodes)
         self.gate_of_node = np.full(count, -1, dtype=np.int32)
         self.gate_of_node[nodes] = np.arange(nodes.size)
         self.robot_at = np.full(count, -1, dtype=np.int32)
@@ -99,11 +108,23 @@ class _Survey:
         near += [found.near_robot[:robots], found.robot_steps[:robots]]
         return [part.copy() for part in near], out
 
+    def robots_past(self) -> NDArray[np.bool_]:
+        """Tell of each robot whether it cannot arrive without passing a gate."""
+        is_past = np.ones(self.demand.sites.size, dtype=bool)
+        is_past[self._free()] = False
+        return is_past
+
+    def _free(self) -> NDArray[np.int32]:
+        """Return the robots that can arrive without passing a gate."""
+        size = self.demand.scenario.area.layout.size
+        is_start = self.demand.nodes.is_destination & (self.gate_of_node[:size] < 0)
+        (_, _, free, _), _ = self.look(-1, np.flatnonzero(is_start).astype(np.int32))
+        return np.asarray(free)
+
     def network(self) -> GateNetwork:
         """Look around from the destinations, then from every gate."""
         demand, size = self.demand, self.demand.scenario.area.layout.size
-        is_start = demand.nodes.is_destination & (self.gate_of_node[:size] < 0)
-        (_, _, free, _), _ = self.look(-1, np.flatnonzero(is_start).astype(np.int32))
+        free = self._free()
         self.robot_at[demand.sites[free]] = -1
         steps_out, arcs, robots = [], [], []
         # The number of the first copy of each gate.
@@ -117,11 +138,17 @@ class _Survey:
             onto = ~self.is_destination[gates]
             into = gate_steps[onto] + through
             into[self.nodes[gates[onto]] >= size] -= demand.nodes.vertex_duration
+            when = robot_steps + through + demand.start_times[near]
+            order = np.argsort(when, kind="stable")
             for _ in range(self.copies[gate]):
                 arcs.append((first_copy[gates[onto]], into))
-                robots.append((near, robot_steps + through))
+                robots.append((near[order], when[order]))
                 steps_out.append(0 if self.is_destination[gate] else out)
+        site = np.where(self.nodes < size, self.nodes, -1).astype(np.int32)
+        copy = np.arange(self.copies.sum()) - np.repeat(first_copy, self.copies)
         return GateNetwork(
+            np.repeat(site, self.copies),
+            copy.astype(np.int32),
             demand.nodes.headways(self.nodes).astype(np.int32),
             np.array(steps_out, dtype=np.int32),
             *_chained(arcs),

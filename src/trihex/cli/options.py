@@ -129,10 +129,17 @@ def robot_options(command: Command) -> Command:
     for option in (
         click.option("--seed", type=Whole(0), help="What draws the robots. [default: 0]"),
         click.option(
+            "--start-times",
+            metavar="LAW:NUMBERS",
+            help="When they begin to move, drawn: constant:T, uniform:A,B, normal:MEAN,SD or lognormal:MEAN,SD, in "
+            "seconds in places in metres, else in steps. [default: all at once]",
+        ),
+        click.option(
             "--starts",
             type=PATH,
             metavar="FILE",
-            help="CSV of their cells, header x,y, or places, header x_metres,y_metres; or a MovingAI .scen.",
+            help="CSV of their cells, header x,y, or places, header x_metres,y_metres, and perhaps when they begin to "
+            "move, start; or a MovingAI .scen.",
         ),
         click.option(
             "--robots", type=Whole(0), help="How many robots to draw at random, or to take from --starts, the first."
@@ -183,8 +190,8 @@ def read_described(path: Path, options: dict[str, Any]) -> Draft:
     from trihex.formats import read_draft
 
     place = {name: options[name] for name in _PLACE}
-    if place["robot_radius"] and not place["cell_size"]:  # the least cells depend on the rule
-        place["following"] = options.get("following")
+    if place["robot_radius"] and not place["cell_size"]:  # the least cells depend on the rules
+        place |= {name: options.get(name) for name in ("clock", "following")}
     with bar("covering", "rows") as progress:
         draft = read_draft(
             path,
@@ -205,31 +212,45 @@ def _changed(draft: Draft, options: dict[str, Any]) -> Draft:
 
     from trihex.areas import cells_from
     from trihex.errors import ScenarioError
-    from trihex.files import read_bytes
-    from trihex.formats import format_of, read_starts
 
     rules = [name for name in RULES if name != "destination"]
     changes: dict[str, Any] = {name: options[name] for name in rules if options.get(name) is not None}
     if options.get("destination"):
         cells = [_cell_of(draft.area, place) for place in options["destination"]]
         changes["destinations"] = cells_from(draft.area, cells, "--destination", ScenarioError)
+    return replace(draft, **changes, **_robots_of(draft, options))
+
+
+def _robots_of(draft: Draft, options: dict[str, Any]) -> dict[str, Any]:
+    """Return what the options say of the robots of a draft, by the names of its fields."""
+    from trihex.areas import check_distribution
+    from trihex.files import read_bytes
+    from trihex.formats import format_of, read_start_times, read_starts
+
     count, starts, seed = options.get("robots"), options.get("starts"), options.get("seed")
+    times = options.get("start_times")
+    if times is not None:
+        check_distribution(times)
+    elif isinstance(draft.start_times, str) or (count is None and starts is None):
+        times = draft.start_times
+    changes: dict[str, Any] = {"start_times": times}
+    draws_times = isinstance(times, str)
     if count is not None and starts is None:
-        changes |= {"random_count": count, "robots": None, "seed": seed}
-    elif seed is not None and count is not None:
+        return {**changes, "random_count": count, "robots": None, "seed": seed}
+    if seed is not None and not draws_times and count is not None:
         raise wrong_use("--seed draws robots; with --starts none are drawn")
-    elif seed is not None and (starts is not None or draft.random_count is None):
+    if seed is not None and not draws_times and (starts is not None or draft.random_count is None):
         raise wrong_use("--seed draws robots: add --robots N")
-    elif starts is not None:
-        robots = read_starts(starts, draft.area)
+    if starts is not None:
+        robots, own = read_starts(starts, draft.area), read_start_times(starts)
         if count is not None and count > robots.size:
             raise wrong_use(f"--robots takes the first of {starts}: at most {robots.size}, not {count}")
-        changes |= {"robots": robots[:count], "random_count": None, "seed": None}
+        if times is None and own is not None:
+            changes["start_times"] = own[:count]
         if format_of(read_bytes(starts), starts) == "scen":
             click.echo(f"trihex: goals of {starts} are not used: all robots go to the destinations", err=True)
-    elif seed is not None:
-        changes["seed"] = seed
-    return replace(draft, **changes)
+        return {**changes, "robots": robots[:count], "random_count": None, "seed": seed}
+    return changes if seed is None else {**changes, "seed": seed}
 
 
 def _cell_of(area: Area, place: tuple[Any, Any]) -> tuple[int, int]:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Area, Scenario, random_robots
+from trihex.areas import Area, Scenario, random_robots, random_start_times, start_times_of
 from trihex.errors import ScenarioError
 from trihex.record import Record
 
@@ -23,6 +23,9 @@ class Draft(Record):
     area : Area
     destinations, robots : int64 arrays of shape (n,), optional
         Cell numbers.
+    start_times : int64 or float64 array of shape (n,), or str, optional
+        Of the robots: steps if whole numbers, else as `start_times_of` takes them; or a distribution to draw them from
+        by `seed`, as for `random_start_times`.
     random_count : int, optional
         How many robots to draw by `seed`, instead of `robots`.
     seed : int, optional
@@ -52,6 +55,13 @@ class Draft(Record):
     clock: str | None = None
     following: str | None = None
     notes: tuple[str, ...] = ()
+    start_times: NDArray[Any] | str | None = None
+
+    @property
+    def has_start_times(self) -> bool:
+        """Whether robots may not all begin to move at once."""
+        times = self.start_times
+        return isinstance(times, str) or (times is not None and bool(np.any(times)))
 
     def with_notes(self, notes: Iterable[str]) -> Draft:
         """Return the same draft with things that the reader of a file wants to be told."""
@@ -80,10 +90,20 @@ class Draft(Record):
             seed=self.seed,
             **{name: rule for name in names if (rule := getattr(self, name)) is not None},
         )
-        if self.random_count is None:
+        if self.random_count is not None:
+            seed = self.seed or 0
+            scenario = scenario.with_robots(_draw(scenario, self.random_count, seed), seed)
+        elif self.robots is None:
             return scenario
-        seed = self.seed or 0
-        return scenario.with_robots(_draw(scenario, self.random_count, seed), seed)
+        return scenario if self.start_times is None else replace(scenario, start_times=self._start_times(scenario))
+
+    def _start_times(self, scenario: Scenario) -> NDArray[np.int64]:
+        """Return the start times of the robots of a scenario, in steps."""
+        given, pace = self.start_times, {n: v for n, v in self.outputs.items() if n in ("speed", "turn_time")}
+        if isinstance(given, str):
+            return random_start_times(scenario.area, scenario.robot_count, given, self.seed or 0, **pace)
+        times = np.asarray(given)
+        return start_times_of(scenario.area, times, **pace) if times.dtype.kind == "f" else times
 
 
 def _draw(scenario: Scenario, count: int, seed: int) -> NDArray[np.int64]:
@@ -103,4 +123,6 @@ def draft_of(scenario: Scenario) -> Draft:
     """Return the draft that completes to `scenario`; a waiting cost like that of an edge stays so if costs change."""
     names = ("destinations", "robots", "seed", "crossing", "corners", "destination_capacity", "clock", "following")
     waiting_cost = None if scenario.waiting_cost == scenario.area.tessellation.waiting_cost else scenario.waiting_cost
-    return Draft(scenario.area, waiting_cost=waiting_cost, **{name: getattr(scenario, name) for name in names})
+    given = {name: getattr(scenario, name) for name in names}
+    start_times = scenario.start_times if scenario.has_start_times else None
+    return Draft(scenario.area, waiting_cost=waiting_cost, start_times=start_times, **given)

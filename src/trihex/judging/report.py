@@ -75,6 +75,13 @@ class Report(Record):
         """Sum of w_r over the robots that arrive."""
         return int(self.plan.waiting_of_robot[self.plan.arrived].sum())
 
+    @cached_property
+    def waiting_before_start(self) -> int:
+        """What of `total_waiting` robots waited until their start times."""
+        plan = self.plan
+        goes = plan.arrived & (plan.arrival_step_of_robot > 0)
+        return int(plan.scenario.start_times[goes].sum()) * int(plan.scenario.waiting_cost)
+
     @property
     def longest_time(self) -> int:
         """The largest t_r among the robots that arrive."""
@@ -171,6 +178,7 @@ class Report(Record):
             "total_time": self.total_time,
             "total_distance": self.total_distance,
             "total_waiting": self.total_waiting,
+            **({"waiting_before_start": self.waiting_before_start} if scenario.has_start_times else {}),
             "longest_time": self.longest_time,
             "lower_bound": self.lower_bound,
             "lower_bound_name": self.lower_bound_name,

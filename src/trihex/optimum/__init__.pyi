@@ -21,3 +21,6 @@ from .paths import (
 from .priced import (
     make_flow_at_prices as make_flow_at_prices,
 )
+from .variations import (
+    Variations as Variations,
+)

@@ -64,6 +64,10 @@ def check_certifiable(scenario: Scenario) -> None:
     rule = "a certificate needs steps that all cost the same:"
     if not scenario.is_stepwise:
         raise PlanError(f"{rule} clock='steps' and following='allow', not {scenario.clock!r}, {scenario.following!r}")
+    if scenario.has_start_times:
+        raise PlanError("a certificate needs robots that may all begin at once, without start_times")
+    if scenario.has_flows:
+        raise PlanError("a certificate needs destinations that let in as many in each step, not doors of a flow")
     if tessellation.edge_count < tessellation.direction_count:
         raise PlanError(f"{rule} hexagonal cells or neighbourhood='edge', not {tessellation.name}")
     if scenario.waiting_cost != tessellation.edge_cost:

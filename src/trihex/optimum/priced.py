@@ -9,10 +9,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.memory import limit_or_default
+from trihex.optimum.doors import shut_doors
 from trihex.optimum.flow import Flow
 from trihex.optimum.network import Network
-from trihex.optimum.queues import price_arrivals
-from trihex.optimum.workspace import SPARE_LAYERS, check_memory, layer_of, least_layers, longer, start_nodes
+from trihex.optimum.queues import price_arrivals, room_of_slots
+from trihex.optimum.workspace import (
+    SPARE_LAYERS,
+    check_memory,
+    held_nodes,
+    layer_of,
+    least_layers,
+    longer,
+    start_nodes,
+)
 
 # Bytes for each node of a layer: flow and two prices.
 _BYTES_PER_NODE = 9
@@ -75,11 +84,11 @@ class _PricedWork:
         size = self.layers * network.node_count
         self.graph = _slim(layer_of(network))
         self.nodes = kernels.PricedNodes(*(np.zeros(size, dtype) for dtype in (np.uint8, np.int32, np.int32)))
-        self._want_goals(0)
         self.search = _make_search(start_nodes(network, cells))
         self.nodes.flow[self.search.start] = START << 4
+        self.nodes.flow[held_nodes(network, cells)] = START << 4
         self.nodes.leaving[self.search.start] = kernels.RISES
-        self.nodes.entering[self.search.start] = kernels.PASSED
+        self._open_layers(0)
 
     def lay_tolls(self) -> NDArray[np.int64]:
         """Begin with prices at which arrivals cost a little less than they will; return nodes where tolls are due."""
@@ -88,17 +97,11 @@ class _PricedWork:
         from trihex.optimum.kernels.prices import BITS, RISES, TOTAL, WANTED
 
         network = self.network
-        prices = price_arrivals(network, self.cells, self.layers)
-        tolls = np.maximum(prices - _REBATE * network.base, 0)
+        room = room_of_slots(network, self.layers)
+        prices = price_arrivals(network, self.cells, room)
+        tolls = np.minimum(np.maximum(prices - _REBATE * network.base, 0), kernels.NEVER).astype(np.int32)
         arcs = np.count_nonzero(network.in_arcs[network.first_destination :, :, 0], axis=1)
-        tolled = given(
-            kernels.Tolled,
-            order=network.order,
-            hops=network.hops,
-            cell_count=network.cell_count,
-            tolls=tolls.astype(np.int32),
-            is_limited=network.room < arcs,
-        )
+        tolled = given(kernels.Tolled, network.order, network.hops, network.cell_count, tolls, room < arcs)
         if tolls.any():
             for layer in range(self.layers - 1, -1, -1):
                 self.search.state[TOTAL] += kernels.lay_tolls(self.graph, self.nodes, tolled, layer)
@@ -123,13 +126,17 @@ class _PricedWork:
             added = more * self.network.node_count
             self.nodes = PricedNodes(*(longer(array, added) for array in self.nodes))
             self.layers += more
-            self._want_goals(self.layers - more)
+            self._open_layers(self.layers - more)
 
-    def _want_goals(self, first: int) -> None:
-        """Let paths end at the destinations of all layers from the first one on."""
-        from trihex.optimum.kernels.prices import WANTED
+    def _open_layers(self, first: int) -> None:
+        """Let paths end at the destinations of all layers from the first one on, but for doors that are shut."""
+        from trihex.optimum.kernels.prices import PASSED, WANTED
 
-        self.nodes.entering.reshape(self.layers, -1)[first:, self.network.first_destination :] = WANTED
+        shut_doors(self.network, self.nodes.flow, first)
+        flow, entering = (array.reshape(self.layers, -1)[first:] for array in (self.nodes.flow, self.nodes.entering))
+        goals = self.network.first_destination
+        entering[:, :goals] |= np.where(flow[:, :goals] != 0, np.int32(PASSED), np.int32(0))
+        entering[:, goals:] |= np.where(flow[:, goals:] < self.network.capacity, np.int32(WANTED), np.int32(0))
 
     def _check_memory(self, layers: int, list_bytes: int = 0) -> None:
         need = layers * self.network.node_count * _BYTES_PER_NODE + list_bytes

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from trihex.optimum.doors import find_shut_nodes
 from trihex.optimum.network import Network
 from trihex.optimum.workspace import layer_of
 
@@ -14,51 +15,60 @@ from trihex.optimum.workspace import layer_of
 _MOST_NODES, _MOST_SLOTS = 1 << 29, 1 << 33
 
 
-def price_arrivals(network: Network, cells: NDArray[np.int64], steps: int) -> NDArray[np.int64]:
-    """Return what arrivals cost beyond the way, by step and destination, where all share them out at the least cost.
+def room_of_slots(network: Network, steps: int) -> NDArray[np.int64]:
+    """Return how many robots get into each destination in each step before `steps`, by step and destination."""
+    room = np.tile(network.room, (steps, 1))
+    shut = find_shut_nodes(network, network.room, 0, steps)
+    layer, node = np.divmod(shut.slots, network.node_count)
+    room[layer, node - network.first_destination] -= shut.missing
+    return room
+
+
+def price_arrivals(network: Network, cells: NDArray[np.int64], room: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return what arrivals cost beyond the way where robots share them out at the least cost.
 
     Parameters
     ----------
     network : Network
     cells : ndarray of int64
         Node where each robot starts, in ascending order of value.
-    steps : int
-        All arrive before this step.
+    room : ndarray of int64, shape (steps, destinations)
+        How many may arrive when and where.
 
     Returns
     -------
     ndarray of int64, shape (steps, destinations)
-        The least prices that prove that the arrivals are shared out well; 0 where that is too much work.
+        Prices that prove that arrivals are shared out well; 0 where that is too much work.
     """
-    goals = network.node_count - network.first_destination
-    slots = steps * goals
-    if slots * network.node_count > _MOST_NODES or cells.size * slots**2 > _MOST_SLOTS:
-        return np.zeros((steps, goals), dtype=np.int64)
-    sharing = _make_sharing(network, _find_costs(network, cells, steps), steps)
+    if room.size * network.node_count > _MOST_NODES or cells.size * room.size**2 > _MOST_SLOTS:
+        return np.zeros_like(room)
     from trihex.optimum.kernels.queues import share_slot
 
+    sharing = _make_sharing(_find_costs(network, cells, len(room)), room.reshape(-1))
     for robot in range(cells.size):
         share_slot(robot, sharing)
-    return sharing.price.reshape(steps, goals)
+    prices: NDArray[np.int64] = sharing.price
+    return prices.reshape(room.shape)
 
 
 def _find_costs(network: Network, cells: NDArray[np.int64], steps: int) -> NDArray[np.int32]:
-    """Return what each robot pays beyond its value for each arrival, by step and destination."""
+    """Return what each robot pays beyond its value for each arrival before `steps`."""
     from trihex.kernels.signatures import given
     from trihex.optimum.kernels import queues as kernels
     from trihex.optimum.kernels.residual import ROWS
 
     goals = range(network.first_destination, network.node_count)
-    ways = given(kernels.SlotWays, order=network.order, hops=network.hops, cells=cells)
+    earliest = network.hops[cells] + network.start_time[cells]
+    ways = given(kernels.SlotWays, order=network.order, cells=cells, earliest=earliest)
     costs = np.full((cells.size, steps * len(goals)), kernels.NEVER, dtype=np.int32)
     layers = np.empty((int(network.out_arcs[:, :, ROWS].max(initial=0)) + 1, network.node_count), dtype=np.int32)
     for goal in goals:
-        for late in range(steps - int(network.hops[cells].min(initial=steps))):
+        for late in range(steps - int(earliest.min(initial=steps))):
             kernels.find_costs(layer_of(network), ways, goal, layers, costs, late)
     return costs
 
 
-def _make_sharing(network: Network, costs: NDArray[np.int32], steps: int) -> Any:
+def _make_sharing(costs: NDArray[np.int32], room: NDArray[np.int64]) -> Any:
     """Return all slots, still open."""
     from trihex.kernels.signatures import given
     from trihex.optimum.kernels import queues as kernels
@@ -67,7 +77,7 @@ def _make_sharing(network: Network, costs: NDArray[np.int32], steps: int) -> Any
     return given(
         kernels.Sharing,
         costs=costs,
-        room=np.tile(network.room, steps),
+        room=room,
         price=np.zeros(slots, dtype=np.int64),
         taken=np.zeros(slots, dtype=np.int64),
         first=np.full(slots, kernels.NONE),

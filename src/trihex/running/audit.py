@@ -118,6 +118,10 @@ def _judge_moves(run: Run, step: _Step) -> Iterator[Conflict]:
     if run.scenario.corners != "allow":
         for i in _closed_corners(run, step).tolist():
             yield _conflict(area, "corner", step, [i], "robot {0} moves from {a} to {b} round a corner that is closed")
+    moves = np.flatnonzero((step.there != step.here) & (step.robots < run.scenario.robot_count))
+    for i in moves[run.scenario.start_times[step.robots[moves]] >= step.number].tolist():
+        start = run.scenario.start_times[step.robots[i]]
+        yield _conflict(area, "start", step, [i], f"robot {{0}} leaves {{a}} before its start time, {start}")
     late: set[int] = set()
     for one in run.occurrences:
         event = one.event
@@ -232,7 +236,7 @@ def _ends(run: Run) -> Iterator[Conflict]:
     going = np.flatnonzero((run.state_of_robot == GOING) & (cells >= 0) & (cells < area.cell_count))
     going = going[~barriers.flat[cells[going]]]  # who left the area or stands on a barrier is charged with that
     if going.size and destinations.size:
-        last = replace(run.scenario, area=replace(area, barriers=barriers), destinations=destinations, robots=going[:0])
+        last = replace(run.scenario.with_robots(()), area=replace(area, barriers=barriers), destinations=destinations)
         for robot in going[is_reachable(last, cells[going])].tolist():
             cell = int(cells[robot])
             text = (

@@ -293,7 +293,8 @@ class Execution:
         if planned is not None:
             return self._follow(*planned)
         distance, fleet = self.field.distance_of_site[self.fleet.site], self.fleet
-        going = np.flatnonzero(can_go & ~is_late & ~fleet.is_under_way).astype(np.int32)
+        may_move = ~is_late & ~fleet.is_under_way & (fleet.start_times_left == 0)
+        going = np.flatnonzero(can_go & may_move).astype(np.int32)
         order = going[np.argsort(distance[going], kind="stable")]
         if not fleet.claims.is_timed:
             return self._done(order, self._stepper.step(order, order, fleet))
@@ -354,6 +355,7 @@ class Execution:
             area=replace(area, barriers=field.barriers),
             destinations=field.world.destination_cells,
             robots=area.layout.site_to_cell(self.fleet.site[robots]),
+            start_times=self.fleet.start_times_left[robots],
         )
         object.__setattr__(scenario, "moves", read_only(field.moves.copy()))  # the cached property, known already
         return NScheme(scenario, read_only(field.distance_of_site.copy())), robots

@@ -31,7 +31,8 @@ class PassingOrder(Record):
     - a destination of capacity c has taken the robot that enters it c places earlier, in an earlier step.
 
     Everything that must come first is earlier in the plan, or in the same step of it. So whoever is first in the plan
-    of those not done can always move: no delay makes robots collide, or wait for each other for ever.
+    of those not done can always move: no delay makes robots collide, or wait for each other for ever. Nobody moves
+    before its start time.
 
     Where moves last several ticks or nobody follows before a cell is left, a robot begins its next move when the move
     that leaves the cell, that which passes the vertex and that which enters the same place of the destination before it
@@ -184,6 +185,7 @@ class Follower:
 
         is_late, moves = np.zeros(self._at.size, dtype=bool), np.zeros(self._at.size, dtype=bool)
         is_late[np.fromiter(late, dtype=np.int64)] = True
+        is_late |= self.order.plan.scenario.start_times > self._tick
         now = given(Progress, tick=self._tick, at=self._at, due=self._due, is_late=is_late)
         choose(self._precedence, now, self._stack, moves)
         action = np.where(self._due > self._tick, np.uint8(UNDERWAY), np.uint8(WAIT))

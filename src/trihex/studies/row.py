@@ -161,6 +161,8 @@ def hash_of_scenario(scenario: Scenario) -> str:
     rules = tuple(map(str, (scenario.waiting_cost, scenario.crossing, scenario.corners, scenario.destination_capacity)))
     if (scenario.clock, scenario.following) != ("steps", "allow"):  # these came later
         rules += (scenario.clock, scenario.following)
+    if scenario.has_start_times:
+        rules += tuple(map(str, scenario.start_times.tolist()))
     names = (tessellation.name, tessellation.neighbourhood, tessellation.costs)
     digest = hashlib.sha256(repr((names, area.height, area.width, frame, rules)).encode())
     digest.update(np.packbits(area.barriers).tobytes())

@@ -14,7 +14,7 @@ from trihex.formats.archive import Entries
 # Entries that came later, and what holds where a file does not have them: it has none that is usual.
 _LATER_RULES = {"clock": "steps", "following": "allow"}
 _NO_ZONES = {"zone_names": np.empty(0, dtype=np.uint8), "zone_cells": np.empty((0, 2), dtype=np.int64)}
-LATER_ENTRIES: dict[str, Any] = {**_LATER_RULES, **_NO_ZONES}
+LATER_ENTRIES: dict[str, Any] = {**_LATER_RULES, **_NO_ZONES, "start_times": np.empty(0, dtype=np.int64)}
 SCENARIO_ENTRIES: Entries = {
     "tessellation": ("U", 0),
     "neighbourhood": ("U", 0),
@@ -26,6 +26,7 @@ SCENARIO_ENTRIES: Entries = {
     "zone_cells": ("i", 2),  # zone, cell
     "destinations": ("i", 1),
     "robots": ("i", 1),
+    "start_times": ("i", 1),  # of the robots; or nothing
     "waiting_cost": ("i", 0),
     "crossing": ("U", 0),
     "corners": ("U", 0),
@@ -48,6 +49,7 @@ def scenario_arrays(scenario: Scenario) -> dict[str, Any]:
         **(_zone_arrays(area.zones) if area.zones else {}),
         "destinations": scenario.destinations,
         "robots": scenario.robots,
+        **({"start_times": scenario.start_times} if scenario.has_start_times else {}),
         "waiting_cost": scenario.waiting_cost,
         "crossing": scenario.crossing,
         "corners": scenario.corners,
@@ -72,6 +74,7 @@ def scenario_from(arrays: dict[str, Any], path: object, kind: type[Scenario] = S
         None if capacity == 0 else capacity,
         None if seed == -1 else seed,
         **{name: text[name] for name in _LATER_RULES},
+        start_times=arrays["start_times"],
     )
 
 

@@ -5,11 +5,23 @@ from __future__ import annotations
 from pathlib import PurePath
 from typing import Annotated, Any
 
+import numpy as np
 from pydantic import AfterValidator, Field
 
-from trihex.areas import ALIGNS, CLOCKS, CORNERS, COSTS, CROSSINGS, FOLLOWINGS, NEIGHBOURHOODS, TESSELLATIONS
+from trihex.areas import (
+    ALIGNS,
+    CLOCKS,
+    CORNERS,
+    COSTS,
+    CROSSINGS,
+    FOLLOWINGS,
+    NEIGHBOURHOODS,
+    TESSELLATIONS,
+    check_distribution,
+)
+from trihex.errors import ScenarioError, is_whole
 from trihex.formats.areas.options import UNKNOWNS
-from trihex.formats.schema import Cells, Count, Number, Points, Table, Whole, choice
+from trihex.formats.schema import LARGEST, Cells, Count, Number, Points, Table, Whole, choice
 
 
 class FrameTable(Table):
@@ -60,6 +72,19 @@ class RulesTable(Table):
     following: Annotated[str, choice("it", FOLLOWINGS)] | None = None
 
 
+def _start_times(value: object) -> object:
+    """Return start times, or a distribution of them."""
+    if isinstance(value, str):
+        try:
+            check_distribution(value)
+        except ScenarioError as error:
+            raise ValueError(str(error).removeprefix("start times ")) from None
+        return value
+    if isinstance(value, list) and all(is_whole(one) and 0 <= one <= LARGEST for one in value):
+        return np.array(value, dtype=np.int64)
+    raise ValueError(f"must be a list of whole numbers of steps, or a distribution in quotes, not {value!r:.60}")
+
+
 class RobotsTable(Table):
     """[robots]: given, from a file, or drawn."""
 
@@ -69,6 +94,8 @@ class RobotsTable(Table):
     file: str | None = None
     random: Whole | None = None
     seed: Whole | None = None
+    # Steps of each, or what draws them, in seconds in an area with a frame.
+    start_times: Annotated[Any, AfterValidator(_start_times)] = None
 
 
 class PlannerTable(Table):

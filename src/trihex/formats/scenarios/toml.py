@@ -20,7 +20,7 @@ from trihex.formats.areas.options import AreaOptions
 from trihex.formats.draft import Draft
 from trihex.formats.scenarios.keys import OUTPUT_PATHS, ScenarioTable
 from trihex.formats.schema import check_document
-from trihex.formats.starts.starts import read_starts
+from trihex.formats.starts.starts import read_start_times, read_starts
 from trihex.formats.text import Text
 from trihex.formats.toml import complaint, parse_toml
 
@@ -84,11 +84,13 @@ def _draft_of(
     destinations = attempt("destinations", lambda: cells(table.destinations))
     if table.destinations_in_metres is not None:
         destinations = attempt("destinations_in_metres", lambda: metres(table.destinations_in_metres))
+    own_times = None
     starts = attempt("robots.cells", lambda: cells(robots.cells))
     if robots.metres is not None:
         starts = attempt("robots.metres", lambda: metres(robots.metres))
     if (file := robots.file) is not None:
         starts = attempt("robots.file", lambda: read_starts(path.parent / file, area))
+        own_times = attempt("robots.file", lambda: read_start_times(path.parent / file)) if starts is not None else None
     has_robots = starts is not None or robots.random is not None
     return Draft(
         area,
@@ -100,6 +102,7 @@ def _draft_of(
         planner=table.planner.name,
         planner_options=table.planner.options,
         outputs=_outputs(table, path),
+        start_times=own_times if robots.start_times is None else robots.start_times,
     )
 
 
@@ -112,10 +115,11 @@ def _outputs(table: ScenarioTable, path: Path) -> dict[str, Any]:
 def _area_draft(whole: ScenarioTable, path: Path, read_area_draft: Callable[[Path, AreaOptions], Draft]) -> Draft:
     table = whole.area
     tessellation = Tessellation(table.tessellation, table.neighbourhood, table.costs)
-    names = (own.name for own in fields(AreaOptions) if own.name not in ("tessellation", "following"))
+    names = (own.name for own in fields(AreaOptions) if own.name not in ("tessellation", "following", "clock"))
     options = {name: value for name in names if (value := getattr(table, name)) is not None}
     if table.path is not None:
-        options["following"] = whole.rules.following or "allow"  # the least cells for robots depend on it
+        # The least cells for robots depend on them.
+        options |= {"following": whole.rules.following or "allow", "clock": whole.rules.clock}
         draft = read_area_draft(path.parent / table.path, AreaOptions(tessellation, **options))
     elif options:
         raise ScenarioError(f"{min(options)} tells how the file at area.path is read; rows take a table area.frame")
@@ -161,6 +165,7 @@ def write_scenario_toml(
         "",
         "[robots]",
         f"cells = {_cells(area, scenario.robots)}",
+        f"start_times = {scenario.start_times.tolist()}" if scenario.has_start_times else "",
         f"seed = {scenario.seed}" if scenario.seed is not None else "",
     ]
     if planner:

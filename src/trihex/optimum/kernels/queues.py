@@ -19,8 +19,8 @@ class SlotWays(NamedTuple):
     """Nodes of a layer, and those where robots start."""
 
     order: IN_I32  # so that arcs within a layer go forward
-    hops: IN_I32
     cells: IN_I64  # node of each robot
+    earliest: IN_I64  # step in which it can arrive, the nearest destination being free
 
 
 class Sharing(NamedTuple):
@@ -65,7 +65,7 @@ def find_costs(graph, ways, goal, layers, costs, late):
         layer[node] = least
     goals = len(out) - graph.first_goal
     for robot in range(len(ways.cells)):
-        slot = (ways.hops[ways.cells[robot]] + late) * goals + goal - graph.first_goal
+        slot = (ways.earliest[robot] + late) * goals + goal - graph.first_goal
         if slot < costs.shape[1]:
             costs[robot, slot] = layer[ways.cells[robot]]
 
@@ -115,12 +115,14 @@ def _move_up(slot, sharing):
 
 @kernel(types.void(types.int64, SHARING))
 def share_slot(robot, sharing):
-    """Let a robot have a slot, too, so that all together pay least; prices are the least that prove it."""
+    """Let a robot have a slot, too, if there is one, so that all together pay least; prices prove that."""
     sharing.least[:] = 2 * NEVER
     sharing.done[:] = False
     _offer(robot, NONE, 0, sharing)
     while True:
         slot = _next_slot(sharing)
+        if slot == NONE or sharing.least[slot] >= NEVER:
+            return
         if sharing.taken[slot] < sharing.room[slot]:
             break
         sharing.done[slot] = True

@@ -8,14 +8,13 @@ from typing import NamedTuple
 
 from numba import types
 
-from trihex.kernels.signatures import HELPER, IN_BOOL, IN_I32, declared, kernel
-from trihex.optimum.kernels.flow_byte import with_arc_out
+from trihex.kernels.signatures import HELPER, IN_I32, MASK, TABLE_I32, declared, kernel
+from trihex.optimum.kernels.flow_byte import is_start, with_arc_out
 from trihex.optimum.kernels.prices import BITS, NODES, PASSED, WANTED
-from trihex.optimum.kernels.residual import LAYER, OFFSET, REDUCED
+from trihex.optimum.kernels.residual import LAYER, NONE, OFFSET, REDUCED
 
 # More than any way costs.
 NEVER = 1 << 26
-TABLE = types.Array(types.int32, 2, "C", readonly=True)
 
 
 class Tolled(NamedTuple):
@@ -24,8 +23,8 @@ class Tolled(NamedTuple):
     order: IN_I32  # nodes so that arcs within a layer go forward
     hops: IN_I32  # steps from each node to a destination
     cell_count: types.int64
-    tolls: TABLE  # by step and destination
-    is_limited: IN_BOOL  # whether fewer get into a destination in a step than come to it: then the toll is due there
+    tolls: TABLE_I32  # by step and destination
+    is_limited: MASK  # whether fewer may arrive then than can come there: if so, the toll is due at the destination
 
 
 TOLLED = declared(Tolled)
@@ -33,41 +32,58 @@ TOLLED = declared(Tolled)
 
 @HELPER
 def _best_arc(at, node, graph, nodes):
-    """Return the place of the arc by which it costs least to go on, and that cost."""
-    least, place = NEVER, 0
+    """Return the index of the node to go on to at the least cost, the place of the arc, and that cost."""
+    least, place, best = NEVER, 0, NONE
     for k in range(graph.out.shape[1]):
         head = at + graph.out[node, k, OFFSET]
         if head == at:
             break
         price = (nodes.entering[head] >> BITS) if head < len(nodes.entering) else 0
-        if graph.out[node, k, REDUCED] + price <= least:
-            least, place = graph.out[node, k, REDUCED] + price, k
-    return place, least
+        if graph.out[node, k, REDUCED] + price < least:
+            least, place, best = graph.out[node, k, REDUCED] + price, k, head
+    return best, place, least
+
+
+@HELPER
+def _open_goals(layer, graph, nodes, tolled):
+    """Write the prices of the destinations of a layer."""
+    for goal in range(graph.first_goal, len(graph.out)):
+        at, which = layer * len(graph.out) + goal, goal - graph.first_goal
+        toll = tolled.tolls[layer, which] if tolled.is_limited[layer, which] else 0
+        if nodes.entering[at] & WANTED:
+            nodes.entering[at] |= toll << BITS
+        else:
+            nodes.entering[at] = NEVER << BITS
+
+
+@HELPER
+def _toll_at(head, graph, nodes, tolled):
+    """Return the toll that is due where an arc to a node begins, 0 unless that is a destination."""
+    layer, goal = head // len(graph.out), head % len(graph.out) - graph.first_goal
+    if goal < 0 or head >= len(nodes.flow) or tolled.is_limited[layer, goal]:
+        return 0
+    return tolled.tolls[layer, goal]
 
 
 @kernel(types.int64(LAYER, NODES, TOLLED, types.int64))
 def lay_tolls(graph, nodes, tolled, layer):
     """Write the prices of a layer; called from the last one down. Return the cost of what is laid beforehand."""
-    size, laid = len(graph.out), 0
-    for goal in range(graph.first_goal, size):
-        toll = tolled.tolls[layer, goal - graph.first_goal] if tolled.is_limited[goal - graph.first_goal] else 0
-        nodes.entering[layer * size + goal] = (toll << BITS) | WANTED
-    for i in range(size - 1, -1, -1):
+    laid = 0
+    _open_goals(layer, graph, nodes, tolled)
+    for i in range(len(graph.out) - 1, -1, -1):
         node = tolled.order[i]
-        at = layer * size + node
+        at = layer * len(graph.out) + node
         if node >= graph.first_goal:
             continue
         if tolled.hops[node] >= layer + (tolled.cell_count <= node) and nodes.flow[at] == 0:  # nobody can be here
             nodes.entering[at] = -NEVER << BITS
             continue
-        place, least = _best_arc(at, node, graph, nodes)
-        nodes.entering[at] = (least << BITS) | (nodes.entering[at] & PASSED)
-        nodes.leaving[at] = least << BITS
-        head = at + graph.out[node, place, OFFSET]
-        goal = head % size - graph.first_goal
-        if goal < 0 or head >= len(nodes.flow) or nodes.flow[at] != 0 or tolled.is_limited[goal]:
+        head, place, least = _best_arc(at, node, graph, nodes)
+        nodes.entering[at] = nodes.leaving[at] = least << BITS
+        if is_start(nodes.flow[at]):  # nobody can come here
+            nodes.entering[at] = (NEVER << BITS) | PASSED
             continue
-        toll = tolled.tolls[head // size, goal]
+        toll = _toll_at(head, graph, nodes, tolled)
         if toll > 0:
             nodes.entering[at] = ((least + toll) << BITS) | WANTED | PASSED
             nodes.flow[at] = with_arc_out(0, place)

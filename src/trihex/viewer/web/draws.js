@@ -26,8 +26,9 @@ export class Draws {
   }
 
   // Ask which area to make.
-  open() {
+  async open() {
     const { app } = this, { generators, tessellations } = app.settings;
+    await app.ready("Areas are made");
     const kind = select("Kind", generators, () => { seed.hidden = chosenIn(kind) === EMPTY; });
     const cells = select("Cells", tessellations, () => {});
     const side = { min: 1, max: 4096 }, width = numberField("Width", 48, side);

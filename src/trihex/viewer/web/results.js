@@ -1,7 +1,7 @@
 // Results: the numbers of plans, or of a run that is under way.
 
 import { h, number, percent, secondsOf, title } from "./words.js";
-import { check, note, section } from "./controls.js";
+import { check, note, row, section } from "./controls.js";
 import { Chart } from "./chart.js";
 import { OF_BOUNDS, OF_LIVE, OF_PLAN, UNITS } from "./sentences.js";
 
@@ -73,7 +73,8 @@ export class Results {
     const alone = app.canEdit ? null : note(ALONE);
     this.paths = h("input", { type: "checkbox", onchange: () => this.#showPaths() });
     this.pathsField = check(this.paths, "All paths");
-    this.element = section("Result", this.pathsField, this.table, this.sets, this.sofar, this.chart.element, alone);
+    const shown = row(app.layers.element, this.pathsField, app.owners.element);
+    this.element = section("Result", shown, this.table, this.sets, this.sofar, this.chart.element, alone);
   }
 
   get hasPaths() { return this.paths.checked; }
