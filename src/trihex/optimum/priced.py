@@ -94,18 +94,17 @@ class _PricedWork:
         """Begin with prices at which arrivals cost a little less than they will; return nodes where tolls are due."""
         from trihex.kernels.signatures import given
         from trihex.optimum.kernels import tolled as kernels
-        from trihex.optimum.kernels.prices import BITS, RISES, TOTAL, WANTED
+        from trihex.optimum.kernels.prices import BITS, NEVER, TOTAL, WANTED
 
         network = self.network
         room = room_of_slots(network, self.layers)
         prices = price_arrivals(network, self.cells, room)
-        tolls = np.minimum(np.maximum(prices - _REBATE * network.base, 0), kernels.NEVER).astype(np.int32)
+        tolls = np.minimum(np.maximum(prices - _REBATE * network.base, 0), NEVER).astype(np.int32)
         arcs = np.count_nonzero(network.in_arcs[network.first_destination :, :, 0], axis=1)
         tolled = given(kernels.Tolled, network.order, network.hops, network.cell_count, tolls, room < arcs)
         if tolls.any():
             for layer in range(self.layers - 1, -1, -1):
                 self.search.state[TOTAL] += kernels.lay_tolls(self.graph, self.nodes, tolled, layer)
-            self.nodes.leaving[self.search.start] |= RISES
         entering: NDArray[np.int32] = self.nodes.entering
         is_goal = np.arange(entering.size) % network.node_count >= network.first_destination
         return np.flatnonzero((entering & WANTED != 0) & (~is_goal | (entering >> BITS > 0)))
@@ -130,13 +129,16 @@ class _PricedWork:
 
     def _open_layers(self, first: int) -> None:
         """Let paths end at the destinations of all layers from the first one on, but for doors that are shut."""
-        from trihex.optimum.kernels.prices import PASSED, WANTED
+        from trihex.optimum.kernels.flow_byte import START
+        from trihex.optimum.kernels.prices import BITS, NEVER, PASSED, WANTED
 
         shut_doors(self.network, self.nodes.flow, first)
-        flow, entering = (array.reshape(self.layers, -1)[first:] for array in (self.nodes.flow, self.nodes.entering))
-        goals = self.network.first_destination
-        entering[:, :goals] |= np.where(flow[:, :goals] != 0, np.int32(PASSED), np.int32(0))
-        entering[:, goals:] |= np.where(flow[:, goals:] < self.network.capacity, np.int32(WANTED), np.int32(0))
+        flow, entering, leaving = (array.reshape(self.layers, -1)[first:] for array in self.nodes)
+        goals = slice(self.network.first_destination, None)
+        entering[flow != 0] |= PASSED
+        entering[:, goals] = np.where(flow[:, goals] < self.network.capacity, WANTED, 0)
+        # Nobody leaves where robots may not go yet, or a shut door.
+        leaving[(flow >= START << 4) & (leaving == 0)] = -NEVER << BITS
 
     def _check_memory(self, layers: int, list_bytes: int = 0) -> None:
         need = layers * self.network.node_count * _BYTES_PER_NODE + list_bytes

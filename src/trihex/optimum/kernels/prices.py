@@ -17,6 +17,8 @@ ENTERING, LEAVING = 0, 1
 # has seen it since prices last rose; and of the side that is entered, whether it is *wanted*, that is, a path may end
 # there, and whether the node carries flow, unless it is a destination.
 RISES, SEEN, WANTED, PASSED, BITS = 1, 2, 4, 8, 4
+# More than any way costs.
+NEVER = 1 << 26
 
 # Entries of the state.
 SERVED = 0  # robots with a path

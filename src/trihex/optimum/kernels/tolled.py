@@ -10,11 +10,8 @@ from numba import types
 
 from trihex.kernels.signatures import HELPER, IN_I32, MASK, TABLE_I32, declared, kernel
 from trihex.optimum.kernels.flow_byte import is_start, with_arc_out
-from trihex.optimum.kernels.prices import BITS, NODES, PASSED, WANTED
+from trihex.optimum.kernels.prices import BITS, NEVER, NODES, PASSED, RISES, WANTED
 from trihex.optimum.kernels.residual import LAYER, NONE, OFFSET, REDUCED
-
-# More than any way costs.
-NEVER = 1 << 26
 
 
 class Tolled(NamedTuple):
@@ -79,10 +76,12 @@ def lay_tolls(graph, nodes, tolled, layer):
             nodes.entering[at] = -NEVER << BITS
             continue
         head, place, least = _best_arc(at, node, graph, nodes)
-        nodes.entering[at] = nodes.leaving[at] = least << BITS
         if is_start(nodes.flow[at]):  # nobody can come here
             nodes.entering[at] = (NEVER << BITS) | PASSED
+            if nodes.leaving[at] & RISES:
+                nodes.leaving[at] = (least << BITS) | RISES
             continue
+        nodes.entering[at] = nodes.leaving[at] = least << BITS
         toll = _toll_at(head, graph, nodes, tolled)
         if toll > 0:
             nodes.entering[at] = ((least + toll) << BITS) | WANTED | PASSED

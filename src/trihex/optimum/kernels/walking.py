@@ -69,20 +69,20 @@ def forget(begin, nodes, search):
 
 
 @HELPER
-def _is_end(side, node, graph, nodes):
+def _is_end(side, node, among, graph, nodes):
     """Tell whether a walk ends at a side of a node."""
     at = side >> 1
-    if side & LEAVING:
-        return nodes.flow[at] == START << 4  # a robot starts here and goes nowhere yet
+    if among:
+        return side & LEAVING and nodes.flow[at] == START << 4  # a robot starts here and goes nowhere yet
     return node >= graph.first_goal and nodes.flow[at] > 0 and nodes.entering[at] & ~(SEEN | WANTED) == 0
 
 
 @HELPER
 def walk_back(side, via, among, graph, nodes, search):
-    """Walk back along tight arcs, among sides that rise or 0, for what may go on by `via`; return how deep it is.
+    """Walk back along tight arcs for what may go on by `via`; return how deep it is.
 
-    That is a robot without path, or a destination that costs nothing where somebody arrives who may go elsewhere. The
-    depth is -1 if there is none, -2 if the list of what was seen is full.
+    Among sides that rise (`RISES`) that is a robot without path, among all (0) a destination that costs nothing, where
+    somebody arrives who may go elsewhere. The depth is -1 if there is none, -2 if the list of what was seen is full.
     """
     stack, state = search.stack, search.state
     begin = state[MARKED]
@@ -93,7 +93,7 @@ def walk_back(side, via, among, graph, nodes, search):
     while depth >= 0:
         side = stack[depth, SIDE]
         node = stack[depth, NODE]
-        if _is_end(side, node, graph, nodes):
+        if _is_end(side, node, among, graph, nodes):
             return depth
         if state[MARKED] == len(search.seen):
             break
