@@ -99,7 +99,7 @@ class _PricedWork:
         network = self.network
         room = room_of_slots(network, self.layers)
         prices = price_arrivals(network, self.cells, room)
-        tolls = np.minimum(np.maximum(prices - _REBATE * network.base, 0), NEVER).astype(np.int32)
+        tolls = np.minimum(np.maximum(prices - _REBATE * network.base, 0), NEVER // 4).astype(np.int32)
         arcs = np.count_nonzero(network.in_arcs[network.first_destination :, :, 0], axis=1)
         tolled = given(kernels.Tolled, network.order, network.hops, network.cell_count, tolls, room < arcs)
         if tolls.any():

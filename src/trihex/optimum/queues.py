@@ -72,6 +72,7 @@ def _make_sharing(costs: NDArray[np.int32], room: NDArray[np.int64]) -> Any:
     """Return all slots, still open."""
     from trihex.kernels.signatures import given
     from trihex.optimum.kernels import queues as kernels
+    from trihex.optimum.kernels.residual import NONE
 
     robots, slots = costs.shape
     return given(
@@ -80,8 +81,8 @@ def _make_sharing(costs: NDArray[np.int32], room: NDArray[np.int64]) -> Any:
         room=room,
         price=np.zeros(slots, dtype=np.int64),
         taken=np.zeros(slots, dtype=np.int64),
-        first=np.full(slots, kernels.NONE),
-        following=np.full(robots, kernels.NONE),
+        first=np.full(slots, NONE),
+        following=np.full(robots, NONE),
         least=np.empty(slots, dtype=np.int64),
         robot=np.empty(slots, dtype=np.int64),
         before=np.empty(slots, dtype=np.int64),

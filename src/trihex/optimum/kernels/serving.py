@@ -97,7 +97,7 @@ def _serve(arrival, graph, nodes, search):
     side = at * 2 + (LEAVING if flow[at] != 0 else ENTERING)
     if not word_of(side, nodes) & RISES or arc_out(flow[at]) == place:
         return True
-    head, cost = at, 0
+    head, cost = at, np.int64(0)
     if place != OWN:
         node = at % len(graph.out)
         head, cost = at + graph.out[node, place, OFFSET], np.int64(graph.out[node, place, REDUCED])
