@@ -7,6 +7,7 @@ from .areas import (
     Tessellation as Tessellation,
     Zone as Zone,
     make_caves_area as make_caves_area,
+    make_doors as make_doors,
     make_maze_area as make_maze_area,
     make_random_area as make_random_area,
     make_rooms_area as make_rooms_area,
@@ -21,6 +22,7 @@ from .bounds import (
     cut_bound as cut_bound,
     distance_bound as distance_bound,
     make_lower_bound as make_lower_bound,
+    queue_bound as queue_bound,
     slot_bound as slot_bound,
 )
 from .errors import (

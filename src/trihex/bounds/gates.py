@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from trihex.bounds.demand import Demand
 from trihex.record import Record
+
+if TYPE_CHECKING:
+    from trihex.bounds.kernels.nodes import NodeGraph
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,22 +56,36 @@ class GateNetwork(Record):
 
 def make_gate_network(demand: Demand, nodes: NDArray[np.int32]) -> GateNetwork:
     """Measure the ways between `nodes`, the robots and the destinations; one search in breadth for each gate."""
-    return _Survey(demand, np.unique(nodes)).network()
+    return Survey(demand, np.unique(nodes)).network()
 
 
 def robots_past(demand: Demand, nodes: NDArray[np.int32]) -> NDArray[np.bool_]:
     """Tell of each robot whether it can only arrive past one of `nodes`, or starts there."""
-    return _Survey(demand, np.unique(nodes)).robots_past()
+    return Survey(demand, np.unique(nodes)).robots_past()
 
 
-class _Survey:
-    """The searches of `make_gate_network`, which share their arrays."""
+class Survey:
+    """Searches around gates or destinations, which share their arrays.
 
-    def __init__(self, demand: Demand, nodes: NDArray[np.int32]) -> None:
+    Parameters
+    ----------
+    demand : Demand
+    nodes : int32 array
+        The gates.
+    graph : NodeGraph, optional
+        With other durations, and other `steps` to the nearest destination, than those of the nodes.
+    detour : int, optional
+        How much longer than to the nearest destination the way may be.
+    """
+
+    def __init__(
+        self, demand: Demand, nodes: NDArray[np.int32], graph: NodeGraph | None = None, detour: int = 2**30
+    ) -> None:
         from trihex.bounds.kernels.gates import Landmarks, Surroundings
         from trihex.kernels.signatures import given
 
-        lines = np.unique(demand.scenario.duration_of_direction).size
+        self.graph = demand.nodes.graph if graph is None else graph
+        lines = np.unique(self.graph.duration).size
         self.demand, self.nodes = demand, nodes
         size, count = demand.scenario.area.layout.size, demand.nodes.count
         # Only a destination passes more than one robot: it stands in the list once for each of them.
@@ -95,6 +112,7 @@ class _Survey:
             when=np.empty(lines * count, dtype=np.int32),
             head=np.zeros(lines, dtype=np.int64),
             tail=np.zeros(lines, dtype=np.int64),
+            detour=detour,
         )
 
     def look(self, gate: int, starts: NDArray[np.int32]) -> tuple[list[NDArray[np.int32]], int]:
@@ -102,11 +120,17 @@ class _Survey:
         from trihex.bounds.kernels import gates as kernels
 
         found = self.found
-        kernels.look_around(gate, starts, self.demand.nodes.graph, self.landmarks, found)
+        kernels.look_around(gate, starts, self.graph, self.landmarks, found)
         gates, robots, out = found.count.tolist()
         near = [found.near_gate[:gates], found.gate_steps[:gates]]
         near += [found.near_robot[:robots], found.robot_steps[:robots]]
         return [part.copy() for part in near], out
+
+    @property
+    def visits(self) -> int:
+        """How many nodes the last search has come to."""
+        found = self.found
+        return int((found.tail - np.arange(found.tail.size) * found.steps.size).sum())
 
     def robots_past(self) -> NDArray[np.bool_]:
         """Tell of each robot whether it cannot arrive without passing a gate."""

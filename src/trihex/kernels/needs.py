@@ -12,9 +12,17 @@ _FIELD = ("fields.front",)
 _DIRECTIONS = (*_FIELD, "areas.moves", "fields.directions")
 _REPAIR = (*_DIRECTIONS, "fields.repair", "fields.changing")
 _GREEDY = (*_DIRECTIONS, "planners.greedy", "planners.cells", "planners.rows", "plans.replay")
-_FCOST = (*_GREEDY, *_REPAIR, "planners.fcost", "planners.slots", "planners.lanes", "planners.laying")
+_FCOST = (
+    *_GREEDY,
+    *_REPAIR,
+    "planners.fcost",
+    "planners.slots",
+    "planners.lanes",
+    "planners.laying",
+    "planners.catchments",
+)
 _TIMELY = (*_DIRECTIONS, "planners.timely", "planners.tick_rows", "planners.slots", "plans.replay")
-_ASTAR = (*_FIELD, "areas.moves", "planners.astar", "planners.reservations", "plans.replay")
+_ASTAR = (*_FIELD, "areas.moves", "planners.astar", "planners.estimates", "planners.reservations", "plans.replay")
 _OPTIMUM = (*_FIELD, "areas.moves", "fields.steps", "optimum.paths", "optimum.single", "plans.replay")
 _BOUND = ("areas.moves", "fields.steps", "bounds.cuts", "bounds.gates", "bounds.meetings", "bounds.serving")
 _EXECUTION = (*_REPAIR, "running.stepping", "running.lines")
@@ -42,7 +50,7 @@ KERNELS_OF: dict[str, tuple[str, ...]] = {
     "straight": (*_ASTAR, "planners.straight"),
     "audit": ("judging.audit", "plans.replay"),
     "timely audit": ("judging.timed", "plans.replay"),
-    "bound": (*_BOUND, "bounds.steps", "bounds.units"),
+    "bound": (*_BOUND, "bounds.mouths", "bounds.steps", "bounds.units"),
     "slot_bound": ("fields.steps", "bounds.steps"),
     "execution": _EXECUTION,
     "trial": (*_EXECUTION, "running.sensing"),
