@@ -89,7 +89,7 @@ CASES = {
     "two outputs of one name": (None, [*ONE, "--picture", "p.png", "--summary", "p.png"], "two outputs must not have one name, p.png"),
     "certificate of no kind": (None, [*ONE, "--planner", "optimal", "--certificate", "c.json"], "c.json: the suffix of a certificate must be one of .csv, not '.json'"),
     "certificate of a plan that is not optimal": (None, [*ONE, "--certificate", "c.csv"], "--certificate proves what planner 'optimal' plans, not 'greedy'"),
-    "certificate where steps differ in cost": (None, [*ONE, "--planner", "optimal", "--tessellation", "square", "--certificate", "c.csv"], "a certificate needs steps that all cost the same: hexagonal cells or neighbourhood='edge', not square"),
+    "certificate where nobody follows": (None, [*ONE, "--planner", "optimal", "--following", "forbid", "--certificate", "c.csv"], "a certificate needs time in steps alone: clock='steps' and following='allow', not 'steps', 'forbid'"),
     # other commands
     "plan without its area": (None, ["check", "plan.csv"], "plan.csv does not hold its area: add AREA"),
     "plan to convert without its area": (None, ["convert", "plan.csv", "p.npz"], "plan.csv does not hold its area: add --area AREA"),

@@ -12,7 +12,7 @@ from trihex.areas import cells_from
 from trihex.bounds import choke_cells
 from trihex.errors import PlanError, check_choice, check_type
 from trihex.fields import NScheme, make_n_scheme
-from trihex.optimum import Variations, check_certifiable
+from trihex.optimum import Variations, check_equal_steps
 from trihex.plans import Plan
 from trihex.prices.afresh import AfreshVariations
 from trihex.prices.prices import KINDS, Prices
@@ -105,7 +105,7 @@ def make_prices(
 def _variations(plan: Plan, n_scheme: NScheme, memory_limit: int | None) -> Any:
     """Return what tells of optima with one cell changed."""
     try:
-        check_certifiable(plan.scenario)
+        check_equal_steps(plan.scenario)
     except PlanError:
         return AfreshVariations(plan, n_scheme, memory_limit)
     return Variations(plan, n_scheme=n_scheme, memory_limit=memory_limit)
