@@ -1,5 +1,8 @@
 """Random small scenarios over all tessellations and rules, each from one number."""
 
+from dataclasses import replace
+from fractions import Fraction
+
 import numpy as np
 from hypothesis import strategies as st
 
@@ -33,6 +36,30 @@ def random_scenario(seed, *, sides=(1, 8), most_filled=0.9, most_robots=1000, wa
         destination_capacity=(None, 1, 2)[rng.integers(3)],
         seed=seed,
     )
+
+
+def with_random_doors(scenario):
+    """Return the same scenario with a flow: some cells that are doors, exits among them, or a fractional capacity."""
+    rng = np.random.default_rng(scenario.seed)
+    free = np.flatnonzero(~scenario.area.barriers)
+    flows = [Fraction(text) for text in ("1/2", "1/3", "2/7", "3/4", "4/5", "1", "5/3", "5/2")]
+    cells = rng.permutation(free)[: rng.integers(1, 6)]
+    cells = np.union1d(
+        cells[: rng.integers(0, cells.size + 1)], rng.permutation(scenario.destinations)[: rng.integers(3)]
+    )
+    parts = np.array_split(rng.permutation(cells), rng.integers(1, 3))
+    doors = [th.Door(part, flows[rng.integers(len(flows))]) for part in parts if part.size]
+    capacity = scenario.destination_capacity
+    if not doors or rng.random() < 0.3:
+        capacity = flows[rng.integers(len(flows))]
+    return replace(scenario, doors=doors, destination_capacity=capacity)
+
+
+def with_start_times(scenario, seed, *, latest=20):
+    """Return the scenario with start times drawn from `seed`, for about half of the robots, in all but a few cases."""
+    rng = np.random.default_rng(seed)
+    times = rng.integers(0, rng.choice([1, 3, latest + 1]), size=scenario.robot_count)
+    return replace(scenario, start_times=times * (rng.random(times.size) < 0.6))
 
 
 def scenarios(**limits):

@@ -1,16 +1,20 @@
 from .areas import (
     GENERATORS as GENERATORS,
     Area as Area,
+    Door as Door,
     Frame as Frame,
     Scenario as Scenario,
     Tessellation as Tessellation,
     Zone as Zone,
     make_caves_area as make_caves_area,
+    make_doors as make_doors,
     make_maze_area as make_maze_area,
     make_random_area as make_random_area,
     make_rooms_area as make_rooms_area,
     make_warehouse_area as make_warehouse_area,
     random_robots as random_robots,
+    random_start_times as random_start_times,
+    start_times_of as start_times_of,
 )
 from .bounds import (
     EarliestArrivals as EarliestArrivals,
@@ -18,6 +22,7 @@ from .bounds import (
     cut_bound as cut_bound,
     distance_bound as distance_bound,
     make_lower_bound as make_lower_bound,
+    queue_bound as queue_bound,
     slot_bound as slot_bound,
 )
 from .errors import (
@@ -54,6 +59,7 @@ from .formats import (
     read_plan as read_plan,
     read_run as read_run,
     read_scenario as read_scenario,
+    read_start_times as read_start_times,
     read_starts as read_starts,
     read_trajectories as read_trajectories,
     write_area as write_area,
@@ -61,6 +67,7 @@ from .formats import (
     write_dependencies as write_dependencies,
     write_events as write_events,
     write_plan as write_plan,
+    write_prices as write_prices,
     write_report as write_report,
     write_run as write_run,
     write_scenario as write_scenario,
@@ -92,6 +99,7 @@ from .pictures import (
     draw_generations as draw_generations,
     draw_n_scheme as draw_n_scheme,
     draw_plan as draw_plan,
+    draw_prices as draw_prices,
     draw_score as draw_score,
     picture_of_area as picture_of_area,
     picture_of_d_scheme as picture_of_d_scheme,
@@ -100,6 +108,7 @@ from .pictures import (
     picture_of_lost as picture_of_lost,
     picture_of_n_scheme as picture_of_n_scheme,
     picture_of_plan as picture_of_plan,
+    picture_of_prices as picture_of_prices,
     picture_of_run as picture_of_run,
     picture_of_waiting as picture_of_waiting,
     write_animation as write_animation,
@@ -121,6 +130,10 @@ from .plans import (
     make_dependencies as make_dependencies,
     make_exits as make_exits,
     make_waiting_map as make_waiting_map,
+)
+from .prices import (
+    Prices as Prices,
+    make_prices as make_prices,
 )
 from .running import (
     Event as Event,

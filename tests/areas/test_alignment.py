@@ -138,6 +138,21 @@ def test_a_fit_tells_the_least_cells_and_the_greatest_robots():
         assert again.reaching_share >= 0.5 and again.cell_size == pytest.approx(least, abs=1e-4)
 
 
+def test_clocks_are_told_apart_where_they_change_how_near_robots_come():
+    kinds = [Tessellation(name, clock=clock) for name in ("square", "hexagonal") for clock in ("costs", "steps")]
+    fits = list(make_fits(laying(CORRIDOR, (5, 5)), kinds, robot_radius=0.3))
+    told = [(fit.tessellation.name, fit.following, fit.clocks) for fit in fits]
+    assert told == [
+        ("square", "allow", ("costs",)),
+        ("square", "allow", ("steps",)),
+        ("square", "forbid", ("steps", "costs")),
+        ("hexagonal", "allow", ("steps", "costs")),
+        ("hexagonal", "forbid", ("steps", "costs")),
+    ]
+    assert [fit.cell_size for fit in fits[:3]] == [1.3, 1.3417, 0.8486]
+    assert fits[0].free_count > fits[1].free_count
+
+
 def test_a_cell_size_alone_tells_the_robots_and_both_may_not_fit():
     kinds = [Tessellation("hexagonal")]
     allow, forbid = make_fits(laying(CORRIDOR), kinds, cell_size=0.6)

@@ -22,9 +22,19 @@ WALLED = th.Area("square", [[0, 1, 0], [0, 0, 0]])
         (dict(robots=[(-1, 0)]), "robots: cell"),
         (dict(waiting_cost=-1), "waiting_cost must be a whole number from 0 to .*, not -1"),
         (dict(waiting_cost=2.5), "waiting_cost must be a whole number"),
-        (dict(destination_capacity=0), "destination_capacity must be a whole number from 1"),
+        (dict(destination_capacity=0), "destination_capacity must be a number of robots above 0"),
         (dict(crossing="forbidden"), "crossing must be one of forbid, allow, not 'forbidden'; did you mean 'forbid'"),
         (dict(corners="nosqueeze"), "did you mean 'no-squeeze'"),
+        (dict(start_times=[1]), "start_times must be one for each of 0 robots, not 1"),
+        (dict(robots=[(0, 0), (1, 0)], start_times=[1]), "start_times must be one for each of 2 robots, not 1"),
+        (
+            dict(robots=[(0, 0), (1, 0)], start_times=[1, -2]),
+            r"start_times\[1\] must be a whole number from 0 to 16777216, not -2",
+        ),
+        (dict(robots=[(0, 0)], start_times=2**24 + 1), r"start_times\[0\] must be .* not 16777217"),
+        (dict(robots=[(0, 0)], start_times=[0.5]), r"start_times must be whole numbers, .*, not \[0.5\]"),
+        (dict(robots=[(0, 0)], start_times="5"), "start_times must be whole numbers, one for each robot, not '5'"),
+        (dict(robots=[(0, 0)], start_times=[[1]]), "start_times must be whole numbers, one for each robot"),
         (dict(area=[[0, 1]]), "area must be an Area, not list"),
     ],
 )
@@ -110,3 +120,13 @@ def test_the_border_counts_as_barrier_for_corner_rules():
     area = th.Area("triangular", np.zeros((1, 5), bool))
     assert open_names(th.Scenario(area, [(0, 0)], corners="no-squeeze"), 2, 0) == {"WW", "W", "E", "EE"}
     assert open_names(th.Scenario(area, [(0, 0)], corners="no-cut"), 2, 0) == {"W", "E"}
+
+
+def test_start_times_are_of_each_robot_or_of_all():
+    at_once = th.Scenario(OPEN, (3, 2), [(0, 0), (1, 0)])
+    assert at_once.start_times.tolist() == [0, 0] and not at_once.has_start_times
+    assert at_once.start_times.dtype == np.int64 and not at_once.start_times.flags.writeable
+    assert th.Scenario(OPEN, (3, 2), [(0, 0), (1, 0)], start_times=3).start_times.tolist() == [3, 3]
+    late = th.Scenario(OPEN, (3, 2), [(0, 0), (1, 0)], start_times=(0, 2))
+    assert late != at_once and late.in_words() == at_once.in_words() + ", start_times=0..2"
+    assert not late.with_robots([(2, 0)]).has_start_times

@@ -7,6 +7,7 @@ import pytest
 from click.testing import CliRunner
 from PIL import Image
 
+from trihex import read_plan, read_scenario
 from trihex.cli import main
 
 HALL = [[0, 0], [9, 0], [9, 6], [0, 6], [0, 0]]
@@ -39,6 +40,7 @@ def test_the_table_and_the_picture(folder):
         "cells",
         "neighbours",
         "following",
+        "clock",
         "cell",
         "size",
         "radius",
@@ -48,12 +50,15 @@ def test_the_table_and_the_picture(folder):
         "greatest",
         "grid",
     ]
-    rows = [line.split() for line in lines[2:12]]
-    assert [row[:5] for row in rows[4:6]] == [
-        ["hexagonal", "6", "allow", "0.8", "m"],
-        ["hexagonal", "6", "forbid", "0.4619", "m"],
+    rows = [line.split() for line in lines[2:14]]
+    assert [row[:6] for row in rows[5:10]] == [
+        ["hexagonal", "6", "allow", "any", "0.8", "m"],
+        ["hexagonal", "6", "forbid", "any", "0.4619", "m"],
+        ["square", "8", "allow", "steps", "0.8945", "m"],
+        ["square", "8", "allow", "costs", "0.8667", "m"],
+        ["square", "8", "forbid", "any", "0.5657", "m"],
     ]
-    assert len(rows) == 10 and all("100.0" in row for row in rows) and lines[12] == "written: fit.png"
+    assert len(rows) == 12 and all("100.0" in row for row in rows) and lines[14] == "written: fit.png"
     with Image.open("fit.png") as image:
         assert image.width > 4 * 460
 
@@ -61,12 +66,54 @@ def test_the_table_and_the_picture(folder):
 def test_one_kind_without_a_radius_or_a_destination(folder):
     square = ("--tessellation", "square", "--neighbourhood", "edge", "--align", "corner")
     rows = [re.split(" {2,}", line) for line in fit("hall.geojson", *square).splitlines()[2:]]
-    assert len(rows) == 2 and rows[0][4] == rows[0][8]  # the greatest robots are those that it shows
+    assert len(rows) == 2 and rows[0][5] == rows[0][9]  # the greatest robots are those that it shows
     row = re.split(" {2,}", fit("hall.wkt", *square, "--cell-size", 0.5).splitlines()[2])
-    assert row[4] == "0.1767 m" and row[7:9] == ["-", "-"]
+    assert row[5] == "0.1767 m" and row[8:10] == ["-", "-"]
     assert "square, 4 neighbours, following allow: cells must be at least 0.7072 metres" in fit(
         "hall.wkt", *square, "--cell-size", 0.6, "--robot-radius", 0.25
     )
+
+
+def test_a_clock_may_be_chosen_and_is_named_where_cells_depend_on_it(folder):
+    full = (
+        "hall.wkt",
+        "--tessellation",
+        "triangular",
+        "--neighbourhood",
+        "full",
+        "--align",
+        "corner",
+        "--costs",
+        "euclidean",
+    )
+    rows = [line.split()[2:5] for line in fit(*full, "--robot-radius", 0.2, "--clock", "costs").splitlines()[2:]]
+    assert rows == [["allow", "costs", "1.0357"], ["forbid", "any", "0.8"]]
+    told = fit(*full, "--cell-size", 1.1, "--robot-radius", 0.2)
+    assert "triangular, 12 neighbours, following allow, clock steps: cells must be at least 1.2221 metres" in told
+    assert "clock costs: cells" not in told
+
+
+def test_what_fits_is_what_the_least_cells_of_a_plan_are(folder):
+    for clock, size in (("steps", 0.6709), ("costs", 0.65)):
+        where = (
+            "hall.geojson",
+            "--tessellation",
+            "square",
+            "--robot-radius",
+            "0.15",
+            "--robots",
+            "2",
+            "--clock",
+            clock,
+        )
+        result = CliRunner().invoke(main, ["plan", *where, "--out", "plan.npz"])
+        assert result.exit_code == 0, result.output
+        assert read_plan("plan.npz").scenario.area.metres.cell_size == size
+        (folder / "s.toml").write_text(
+            'destinations = [[3, 3]]\n[area]\npath = "hall.wkt"\ntessellation = "square"\nrobot_radius = 0.15\n'
+            f'[rules]\nclock = "{clock}"\n'
+        )
+        assert read_scenario("s.toml").area.metres.cell_size == size
 
 
 @pytest.mark.parametrize(

@@ -189,7 +189,7 @@ def saved(document, path):
 def near_walls(area):
     x, y = area.cell_to_metres(np.arange(area.cell_count))
     walls = shapely.MultiLineString([*WALLS, EXIT])
-    return shapely.distance(walls, shapely.points(x, y)).reshape(area.barriers.shape) < 1.6 * area.frame.cell_size
+    return shapely.distance(walls, shapely.points(x, y)).reshape(area.barriers.shape) < area.frame.cell_size
 
 
 @pytest.mark.parametrize("style", STYLES, ids=lambda style: style.__name__)
@@ -214,40 +214,69 @@ def test_a_binary_file_is_read_as_well(tmp_path):
     assert all(np.array_equal(area.barriers, areas[0].barriers) for area in areas)
 
 
-def test_the_same_floor_as_dxf_geojson_wkt_and_image_differs_at_walls_alone(tmp_path):
-    walls = shapely.MultiLineString(WALLS).buffer(0.1, cap_style="square", join_style="mitre")
-    free = shapely.box(0.1, 0.1, 11.9, 7.9).difference(walls)
-    exit_ = {"type": "LineString", "coordinates": [[11.9, 3], [11.9, 5]]}
-    features = [("free", shapely.geometry.mapping(free)), ("destination", exit_)]
-    (tmp_path / "a.geojson").write_text(
-        json.dumps(
-            {
-                "type": "FeatureCollection",
-                "features": [
-                    {"type": "Feature", "properties": {"kind": kind}, "geometry": shape} for kind, shape in features
-                ],
-            }
-        )
-    )
-    (tmp_path / "a.wkt").write_text(free.wkt)
-    y, x = np.mgrid[0:156, 0:236]
-    shown = shapely.contains_xy(free, 0.1 + (x + 0.5) * 0.05, 7.9 - (y + 0.5) * 0.05)
-    Image.fromarray(np.where(shown, 255, 0).astype(np.uint8)).save(tmp_path / "a.png")
-    saved(as_lines(), tmp_path / "a.dxf")
-    plain = {name: value for name, value in OPTIONS.items() if name != "wall_thickness"}
-    areas = [
-        read_area(tmp_path / "a.dxf", **OPTIONS),
-        read_area(tmp_path / "a.geojson", **plain),
-        read_area(tmp_path / "a.wkt", **plain),
-        read_area(tmp_path / "a.png", resolution=0.05, **plain),
+PIXEL = 0.05
+
+
+def one_floor(folder, degrees):
+    """Write the floor, turned about its north-west corner, as DXF, GeoJSON, WKT and image; return what is free."""
+    walls = shapely.affinity.rotate(shapely.MultiLineString(WALLS), degrees, (0, 0))
+    exit_ = shapely.affinity.rotate(shapely.LineString([(11.9, 3), (11.9, 5)]), degrees, (0, 0))
+    hall = shapely.affinity.rotate(shapely.box(0.1, 0.1, 11.9, 7.9), degrees, (0, 0))
+    free = hall.difference(walls.buffer(0.1, cap_style="square", join_style="mitre"))
+    features = [
+        {"type": "Feature", "properties": {"kind": kind}, "geometry": shapely.geometry.mapping(shape)}
+        for kind, shape in (("free", free), ("destination", exit_))
     ]
-    at_walls = near_walls(areas[0])
-    for area in areas[1:]:
-        assert area.barriers.shape == areas[0].barriers.shape
-        assert np.array_equal(area.barriers | at_walls, areas[0].barriers | at_walls)
-        assert np.count_nonzero(area.barriers != areas[0].barriers) <= 0.03 * area.cell_count
+    (folder / "a.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+    (folder / "a.wkt").write_text(free.wkt)
+    west, south, east, north = free.bounds
+    y, x = np.mgrid[0 : round((north - south) / PIXEL), 0 : round((east - west) / PIXEL)]
+    shown = shapely.contains_xy(free, west + (x + 0.5) * PIXEL, north - (y + 0.5) * PIXEL)
+    Image.fromarray(np.where(shown, 255, 0).astype(np.uint8)).save(folder / "a.png")
+    document, space, scale = new()
+    for wall in walls.geoms:
+        space.add_lwpolyline(scaled(wall.coords, scale), dxfattribs={"layer": "A-WALL"})
+    middle = shapely.affinity.rotate(shapely.LineString(EXIT), degrees, (0, 0))
+    space.add_line(*scaled(middle.coords, scale), dxfattribs={"layer": "EXIT"})
+    saved(document, folder / "a.dxf")
+    return free, middle
+
+
+@pytest.mark.parametrize("degrees", [0, 20, 45])
+@pytest.mark.parametrize(
+    ("tessellation", "size", "half"), [("hexagonal", 0.5, 0.5), ("square", 0.55, 0.708), ("triangular", 0.75, 1.0)]
+)
+def test_the_same_floor_as_dxf_geojson_wkt_and_image_differs_by_less_than_a_cell_at_walls(
+    tmp_path, tessellation, size, half, degrees
+):
+    free, exit_ = one_floor(tmp_path, degrees)
+    plain = {"tessellation": tessellation, "cell_size": size, "robot_radius": 0.12}
+    by_lines = read_area(tmp_path / "a.dxf", **plain, wall_thickness=0.2)
+    drawn, written = (read_area(tmp_path / name, **plain) for name in ("a.geojson", "a.wkt"))
+    pixels = read_area(tmp_path / "a.png", resolution=PIXEL, **plain)
+    assert drawn.free_count > 40
+    assert np.array_equal(drawn.barriers, written.barriers)
+    corners = drawn.tessellation.polygon_of_cell(*drawn.cell_to_xy(np.arange(drawn.cell_count)))
+    cells = shapely.polygons(np.stack(drawn.metres.point_to_metres(corners[..., 0], corners[..., 1]), axis=-1))
+    centres = shapely.points(*drawn.cell_to_metres(np.arange(drawn.cell_count)))
+    for other, places, error in ((by_lines, exit_, 0.1), (pixels, free.boundary, PIXEL)):
+        height, width = (min(lengths) for lengths in zip(other.barriers.shape, drawn.barriers.shape, strict=True))
+        assert max(other.height, drawn.height) - height <= 1 and max(other.width, drawn.width) - width <= 1
+        is_other = np.ones(drawn.barriers.shape, dtype=bool)  # all outside is a barrier
+        is_other[:height, :width] = other.barriers[:height, :width]
+        differ = (is_other != drawn.barriers).reshape(-1)
+        assert (shapely.distance(cells[differ], places) < size).all()
+        # Half way to a neighbour the wall is nearer than the radius in the one, and not in the other.
+        assert (shapely.distance(centres[differ], places) < half * size + plain["robot_radius"] + error).all()
+        assert differ.sum() <= 0.03 * differ.size
+    if degrees == 0:  # where walls end between pixels, all is the same
+        assert np.array_equal(pixels.barriers, drawn.barriers)
+
+
+def test_an_exit_in_the_middle_of_a_wall_and_on_its_face_is_the_same_row_of_cells(tmp_path):
+    one_floor(tmp_path, 0)
+    plain = {name: value for name, value in OPTIONS.items() if name != "wall_thickness"}
     one, other = (read_scenario(tmp_path / name, **own) for name, own in (("a.dxf", OPTIONS), ("a.geojson", plain)))
-    # In the one the exit is drawn in the middle of the wall, in the other on its face.
     ends = [np.stack(own.area.cell_to_metres(own.destinations), axis=-1) for own in (one, other)]
     away = np.linalg.norm(ends[0][:, None] - ends[1], axis=-1)
     assert max(away.min(axis=0).max(), away.min(axis=1).max()) <= 1.01 * OPTIONS["cell_size"]

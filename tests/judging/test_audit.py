@@ -6,7 +6,7 @@ from hypothesis import given, settings, strategies as st
 
 import trihex as th
 from tests.oracles.rules import judge
-from tests.strategies import scenarios
+from tests.strategies import scenarios, with_start_times
 from tests.sweeps import swept
 from trihex.areas import Claim
 from trihex.judging.conflict import KINDS
@@ -36,6 +36,8 @@ CLEAN = [
     squares("ab DD", [[SE], [SW]], crossing="allow"),
     squares("a. .D", [[SE]], corners="no-cut"),
     squares("a# .D", [[SE]], corners="no-squeeze"),
+    squares("a.D", [[WAIT, WAIT, E, E]], start_times=2),
+    squares("a#D", [[]], start_times=2),
 ]
 # Each rule broken once: the plan, the kind, and how the conflict reads.
 BROKEN = [
@@ -103,6 +105,11 @@ BROKEN = [
         squares("aD.", [[E, E]]),
         "arrival",
         "step 1: robot 0 acts on after it has entered destination (1, 0)",
+    ),
+    (
+        squares("a.D", [[WAIT, E, E]], start_times=[2]),
+        "start",
+        "step 2: robot 0 leaves (0, 0) before its start time, 2",
     ),
 ]
 
@@ -188,7 +195,7 @@ def nonsense(scenario, seed):
 @settings(max_examples=swept(400), deadline=None)
 @given(scenarios(sides=(1, 5)), st.integers(0, 2**32 - 1))
 def test_the_judge_agrees_with_one_that_draws_polygons(scenario, seed):
-    plan = nonsense(scenario, seed)
+    plan = nonsense(with_start_times(scenario, seed, latest=4), seed)
     audit = th.audit_plan(plan, limit=10**6)
     found = [(c.kind, c.step, c.robots, c.cells) for c in audit.conflicts]
     assert sorted(found) == judge(plan)

@@ -10,7 +10,7 @@ import trihex as th
 from tests.judging.test_audit import NE, SE, SW, E, N, S, W, nonsense, squares
 from tests.oracles.owners import judge, keeps_to_the_rules
 from tests.oracles.wanderers import wandering_plan
-from tests.strategies import random_scenario
+from tests.strategies import random_scenario, with_start_times
 from tests.sweeps import swept
 from trihex.areas import CLOCKS, FOLLOWINGS
 from trihex.judging.conflict import KINDS
@@ -82,6 +82,11 @@ BROKEN = [
         squares("aD.", [[E, E]], **FORBID),
         "arrival",
         "step 5: robot 0 acts on after it has entered destination (1, 0)",
+    ),
+    (
+        squares("aD.", [[*AFTER, E]], start_times=6, **FORBID),
+        "start",
+        "step 6: robot 0 leaves (0, 0) before its start time, 6",
     ),
 ]
 
@@ -175,7 +180,7 @@ def check_with_the_oracle(plan):
 @given(st.integers(0, 2**32 - 1))
 def test_the_judge_agrees_with_one_that_writes_down_who_owns_what(seed):
     rng, scenario = np.random.default_rng(seed), timed_scenario(seed, sides=(1, 5), most_filled=0.6)
-    check_with_the_oracle(nonsense(scenario, seed))
+    check_with_the_oracle(nonsense(with_start_times(scenario, seed, latest=9), seed))
     plan = wandering_plan(scenario, seed)
     if plan is not None:
         assert th.audit_plan(plan).is_clean and plan.arrived.sum() == len(plan.scenario.robots) - still(plan)

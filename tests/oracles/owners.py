@@ -8,10 +8,12 @@ that it passes all the time; a destination as any b, but nobody owns it longer. 
 
 from collections import defaultdict
 from itertools import combinations
+from math import ceil
 from typing import NamedTuple
 
 import numpy as np
 
+from tests.oracles.doors import Openings
 from tests.oracles.rules import Rules
 from trihex.kernels.codes import JUMP, WAIT
 
@@ -63,9 +65,11 @@ class Record:
         self.destinations = set(self.rules.places(self.scenario.destinations))
         self.reachable = self.rules.reachable()
         self.jumps = {at: self.rules.places(np.array([to]))[0] for at, to in plan.jumps.tolist()}
-        self.conflicts, self.stays, self.moves = [], [], []
+        self.conflicts, self.stays, self.moves, self.entries = [], [], [], []
+        self.openings = Openings(self.scenario)
         for robot, start in enumerate(self.rules.places(self.scenario.robots)):
             self.follow(robot, start)
+        self.judge_entries()
         self.stays.sort()
         self.moves.sort()
 
@@ -89,6 +93,8 @@ class Record:
             if action == WAIT:
                 tick += 1
                 continue
+            if not is_later and tick < self.scenario.start_times[robot]:
+                self.conflicts.append(("start", tick + 1, (robot,), (at,)))
             to = self.target(index, action, at)
             ticks = 1 if action == JUMP else ticks_of_move(self.scenario, at, to)
             forbids = self.scenario.following == "forbid"
@@ -103,7 +109,10 @@ class Record:
             self.moves.append(Move(2 * tick, robot, 2 * (tick + ticks), at, to, vertex))
             since, is_later, at = 2 * tick if forbids else 2 * tick + ticks, True, to
             tick += ticks
+            if to not in self.destinations and to != self.moves[-1].start and self.openings(to, tick) == 0:
+                self.conflicts.append(("capacity", tick, (robot,), (to,)))
             if to in self.destinations:
+                self.entries.append((tick, robot, to))
                 self.stays.append(Stay(since, True, robot, 2 * tick, ("destination", to)))
                 if index + 1 < last:
                     self.conflicts.append(("arrival", tick, (robot,), (to,)))
@@ -111,6 +120,14 @@ class Record:
         self.stays.append(Stay(since, is_later, robot, EVER, ("cell", at)))
         if self.rules.places(self.scenario.robots)[robot] in self.reachable:
             self.conflicts.append(("arrival", tick, (robot,), (at,)))
+
+    def judge_entries(self):
+        """Judge whether doors that are destinations let in all who enter in a tick."""
+        entered = defaultdict(int)
+        for tick, robot, to in sorted(self.entries):
+            entered[tick, to] += 1
+            if self.openings(to, tick) is not None and entered[tick, to] > self.openings(to, tick):
+                self.conflicts.append(("capacity", tick, (robot,), (to,)))
 
     def judge_ground(self, robot, action, at, to, tick):
         if self.rules.is_blocked(to):
@@ -138,7 +155,7 @@ class Record:
 def keeps_to_the_rules(plan):
     """Whether no rule is broken: in no half tick is anything owned by more than may own it."""
     record = Record(plan)
-    most = {"cell": 1, "vertex": 1, "destination": plan.scenario.destination_capacity or len(record.stays)}
+    most = {"cell": 1, "vertex": 1, "destination": ceil(plan.scenario.destination_capacity or 0) or len(record.stays)}
     for (thing, _), stays in record.owners().items():
         if len({stay.robot for stay in stays}) > most[thing[0]]:
             return False
@@ -164,7 +181,7 @@ def judge(plan):
     for stay in record.stays:
         before = [one for one in owners[stay.thing, stay.begin] if one < stay]
         if stay.thing[0] == "destination":
-            if plan.scenario.destination_capacity and len(before) >= plan.scenario.destination_capacity:
+            if 0 < ceil(plan.scenario.destination_capacity or 0) <= len(before):
                 found.append(("capacity", stay.begin // 2 + 1, (stay.robot,), (stay.thing[1],)))
         elif stay.is_later and before and longest(before).robot != stay.robot:
             both = tuple(sorted((longest(before).robot, stay.robot)))

@@ -2,10 +2,11 @@
 
 from collections import defaultdict
 from functools import cache
-from math import atan2
+from math import atan2, ceil
 
 import numpy as np
 
+from tests.oracles.doors import Openings
 from trihex.kernels.codes import JUMP, WAIT
 
 
@@ -90,8 +91,12 @@ def judge(plan):
     tessellation, destinations = scenario.area.tessellation, set(rules.places(scenario.destinations))
     own = [plan.actions[a:b].tolist() for a, b in zip(plan.first_action, plan.first_action[1:], strict=False)]
     jumps = {at: rules.places(np.array([to]))[0] for at, to in plan.jumps.tolist()}
-    place = dict(enumerate(rules.places(scenario.robots)))
+    place, openings = dict(enumerate(rules.places(scenario.robots))), Openings(scenario)
     start, parked_since, conflicts = dict(place), {}, []
+    for r, own_start in enumerate(scenario.start_times.tolist()):
+        early = [step for step, action in enumerate(own[r], 1) if action != WAIT and step <= own_start]
+        if early and place[r] not in destinations:
+            conflicts.append(("start", early[0], (r,), (place[r],)))
     for r in list(place):
         if place[r] in destinations:
             if own[r]:
@@ -124,6 +129,8 @@ def judge(plan):
                     passing[r] = (rules.vertex(at, to), at, to)
                 if not rules.is_blocked(to) and not rules.is_corner_open(at, to):
                     conflicts.append(("corner", step, (r,), (at, to)))
+            if to != at and to not in destinations and openings(to, step) == 0:
+                conflicts.append(("capacity", step, (r,), (to,)))
             place[r] = to
             if to in destinations:
                 entering[to].append(r)
@@ -135,7 +142,8 @@ def judge(plan):
                 if first != r:
                     conflicts.append(("crossing", step, (first, r), (*passing[first][1:], *ways)))
         for cell, robots in entering.items():
-            for r in robots[scenario.destination_capacity or len(robots) :]:
+            limits = [openings(cell, step), ceil(scenario.destination_capacity or len(robots))]
+            for r in robots[min(limit for limit in limits if limit is not None) :]:
                 conflicts.append(("capacity", step, (r,), (cell,)))
             for r in robots:
                 del place[r]

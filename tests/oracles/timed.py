@@ -15,6 +15,7 @@ import numpy as np
 from scipy.optimize import Bounds, LinearConstraint, milp
 from scipy.sparse import coo_array
 
+from tests.oracles.doors import Openings
 from tests.oracles.rules import Rules
 from trihex.kernels.codes import WAIT
 from trihex.plans.plan import plan_from_lists
@@ -44,8 +45,10 @@ class TimedProgram:
         self.reachable = self.rules.reachable()
         starts = enumerate(self.rules.places(scenario.robots))
         self.start_of_robot = {r: at for r, at in starts if at in self.reachable - self.destinations}
+        times = scenario.start_times * finer
+        self.may_leave = {at: int(times[r]) for r, at in self.start_of_robot.items()}
         self.moves = {at: list(self._moves_from(at)) for at in self.reachable - self.destinations}
-        self.deeds, self.cost, self.limit = [], [], {}
+        self.deeds, self.cost, self.limit, self.openings = [], [], {}, Openings(scenario)
         self.members, self.balance = defaultdict(list), defaultdict(list)
         self._fill()
 
@@ -90,6 +93,8 @@ class TimedProgram:
         for cell, moves in self.moves.items():
             for begin in range(soonest.get(cell, self.end), self.end):
                 for other, price, duration in [(cell, self.scenario.waiting_cost, 1), *moves]:
+                    if other != cell and begin < self.may_leave.get(cell, 0):
+                        continue  # the robot that starts there stands, and fills it
                     if begin + duration + needed[other] <= self.end:
                         self._add(cell, other, begin, price, duration)
 
@@ -104,6 +109,7 @@ class TimedProgram:
         if other == cell:
             self._own("cell", cell, first, last, deed)
             return
+        self.members["door", other, (begin + duration) // self.finer].append(deed)
         forbids = self.scenario.following == "forbid"
         self._own("cell", cell, first, last if forbids else middle, deed)
         self._own("goal" if other in self.destinations else "cell", other, first if forbids else middle, last, deed)
@@ -119,12 +125,17 @@ class TimedProgram:
 
     def _rows(self):
         """Return the inequalities: variables with their signs, lower and upper limit of each."""
-        capacity = self.scenario.destination_capacity or np.inf
+        capacity = ceil(self.scenario.destination_capacity or 0) or np.inf
         limits = {}
         for name, deeds in self.members.items():
             limit = capacity if name[0] == "goal" else 1
+            if name[0] == "door":
+                limit = self.openings(*name[1:])
+                limit = np.inf if limit is None else limit
             if len(deeds) > limit:
-                limits[tuple(deeds)] = limit  # mostly the same as half a tick before
+                limits[tuple(deeds)] = min(
+                    limit, limits.get(tuple(deeds), limit)
+                )  # mostly the same as half a tick before
         rows = [([(deed, 1) for deed in deeds], -np.inf, limit) for deeds, limit in limits.items()]
         starts = set(self.start_of_robot.values())
         for (cell, time), signed in self.balance.items():

@@ -119,6 +119,20 @@ def test_robots_are_between_centres_while_a_move_lasts(tmp_path, max_frames, tic
     assert abs(np.flatnonzero(waits).mean() - (5.5 * 40 - 0.5)) < 1.5
 
 
+def test_robots_of_a_run_are_between_centres_too():
+    """The robot begins a move each five ticks; one frame a tick, and three for each."""
+    scenario = Scenario(Area("square", np.zeros((1, 9))), [(0, 0)], [(6, 0)], clock="costs")
+    run = th.Trial(scenario).run()
+    assert run.steps == 30
+    for most, substeps in ((31, 1), (91, 3)):
+        film = RunFilm(run, most, 360, "", clock=False, legend=False)
+        frames = list(film.frames())
+        assert len(frames) == 30 * substeps + 1
+        for number, frame in enumerate(frames[:-1]):
+            blue = np.flatnonzero((frame[8] == palette.MOVING).all(axis=1))
+            assert abs(blue.mean() - 40 * (6 - number / substeps / 5) - 19.5) < 1.5, number
+
+
 @pytest.mark.parametrize("name", TESSELLATIONS)
 def test_robots_stand_where_the_plan_says(tmp_path, name):
     plan = wandering_plan(name)

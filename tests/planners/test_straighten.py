@@ -112,6 +112,20 @@ def test_what_cannot_be_straightened_is_told():
         straighten(th.make_plan(scenario), memory_limit=1)
 
 
+@pytest.mark.parametrize("rule", ["--clock=costs", "--following=forbid"])
+def test_what_cannot_be_straightened_is_told_before_anything_is_planned(tmp_path, monkeypatch, rule):
+    def never(*given, **more):
+        raise AssertionError("planned in vain")
+
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "w.txt").write_text("a......\n.......\n......D\n.......\n")
+    monkeypatch.setattr("trihex.planners.make_plan", never)
+    monkeypatch.setattr("trihex.fields.make_n_scheme", never)
+    done = CliRunner().invoke(main, ["plan", "w.txt", "--tessellation", "square", rule, "--straight"])
+    assert done.exit_code == 2 and "plan must have moves of one step, and robots that may follow" in done.output
+    assert len(done.output.strip().splitlines()) == 1
+
+
 def test_the_command_straightens(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "w.txt").write_text("a......\n.......\n......D\n.......\n")

@@ -28,7 +28,8 @@ def by_hand(motion):
             if cell >= 0:
                 spent[cell] += 1
             stands = step < motion.steps and motion.actions_in(step + 1)[robot] in (WAIT, LATE)
-            if cell >= 0 and stands and motion.ended[robot] > step:
+            starts = robot >= motion.scenario.robot_count or step >= motion.scenario.start_times[robot]
+            if cell >= 0 and stands and starts and motion.ended[robot] > step:
                 waited[cell] += 1
         if motion.arrived[robot]:
             arrivals.append((int(motion.ended[robot]), int(motion.last_cell_of_robot[robot])))
@@ -111,3 +112,10 @@ def test_exits_with_a_name_are_counted_by_it(tmp_path):
     assert CliRunner().invoke(main, command).exit_code == 0
     rows = list(csv.DictReader((tmp_path / "n.csv").read_text().splitlines()))
     assert [rows[-1][name] for name in ("arrived", "north", "exit arrived", "(3, 2)")] == ["4", "2", "1", "1"]
+
+
+def test_what_is_waited_until_the_start_time_is_no_loss():
+    scenario = th.Scenario(th.Area("square", [[0, 0, 0, 0]]), [(3, 0)], [(0, 0), (1, 0)], start_times=[1, 4])
+    for motion in (th.make_plan(scenario), th.Trial(scenario).run()):
+        assert th.make_waiting_map(motion).tolist() == [[3, 0, 0, 0]]
+        assert th.make_waiting_map(motion, before_start=True).tolist() == [[1, 4, 0, 0]]

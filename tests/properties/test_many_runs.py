@@ -17,7 +17,7 @@ SHARES, MOST_STEPS = 4, 5000
 @pytest.mark.parametrize("share", range(SHARES))
 def test_every_run_ends_safely_and_leaves_nobody_behind(share):
     for seed in range(share, COUNT, SHARES):
-        run = random_trial(seed).run(most_steps=MOST_STEPS)
+        run = random_trial(seed, has_start_times=seed % 3 == 0).run(most_steps=MOST_STEPS)
         assert run.steps < MOST_STEPS, seed
         audit = audit_run(run)
         assert audit.is_clean, (seed, [str(conflict) for conflict in audit.conflicts])
@@ -28,11 +28,12 @@ def test_every_run_ends_safely_and_leaves_nobody_behind(share):
 @pytest.mark.parametrize("share", range(SHARES))
 def test_the_same_trial_gives_the_same_run_also_after_a_stop(share):
     for seed in range(share, COUNT // 10, SHARES):
-        run = random_trial(seed).run()
+        late = {"has_start_times": seed % 3 == 0}
+        run = random_trial(seed, **late).run()
         if seed % 5 == 0:  # it follows plans, and makes a new one after a stop
-            assert random_trial(seed).run() == run, seed
+            assert random_trial(seed, **late).run() == run, seed
             continue
-        again, events = random_trial(seed), [occurrence.event for occurrence in run.occurrences]
+        again, events = random_trial(seed, **late), [occurrence.event for occurrence in run.occurrences]
         stopped = again.run(most_steps=seed % 23)
         resumed = resume_trial(stopped, events[len(stopped.occurrences) :], aside=again.execution.aside)
         assert resumed.run() == run == again.run(), seed

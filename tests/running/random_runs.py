@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from tests.oracles.timed import with_time
-from tests.strategies import random_scenario
+from tests.strategies import random_scenario, with_start_times
 from trihex.areas import Frame, Zone
 from trihex.running import KINDS, OF_SHAPES, OF_ZONES, Event, Sensor, Trial
 
@@ -40,7 +40,7 @@ def random_events(rng, scenario, count):
     return events
 
 
-def random_trial(seed, time=("steps", "allow"), **limits):
+def random_trial(seed, time=("steps", "allow"), *, has_start_times=False, **limits):
     """Return a trial; what robots see, what happens and who is late as the number says, `time` the clock and rule."""
     rng = np.random.default_rng([seed, 9])
     scenario = random_scenario(seed, **{"sides": (3, 16), **limits})
@@ -50,6 +50,8 @@ def random_trial(seed, time=("steps", "allow"), **limits):
     scenario = replace(scenario, area=replace(scenario.area, zones=zones, frame=frame))
     if time != ("steps", "allow"):
         scenario = with_time(scenario, *time)
+    if has_start_times:
+        scenario = with_start_times(scenario, seed)
     radius = RADII[rng.integers(len(RADII))]
     return Trial(
         scenario,

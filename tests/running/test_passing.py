@@ -90,3 +90,12 @@ def test_unsafe_plans_and_delays_without_end_are_refused():
         make_passing_order(both)
     with pytest.raises(th.PlanError, match="delay must be a number from 0 to below 1, not 1"):
         make_passing_order(plan_of([(0, 1)], [[EAST]])).run(delay=1)
+
+
+def test_nobody_moves_before_its_start_time():
+    scenario = th.Scenario(th.Area("square", [[0, 0, 0, 0]]), [(3, 0)], [(0, 0), (1, 0)], start_times=[2, 5])
+    run = make_passing_order(th.make_plan(scenario)).run(delay=0.3, seed=1)
+    assert th.audit_run(run).is_clean and run.arrived.all()
+    assert (run.actions[:2, 0] > 250).all() and (run.actions[:5, 1] > 250).all()
+    replanned = th.Trial(scenario, "astar").run()
+    assert th.audit_run(replanned).is_clean and replanned.arrived.all()

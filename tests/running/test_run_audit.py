@@ -48,6 +48,13 @@ def test_robots_that_meet_or_leave_the_area(robots, rows, kind):
     assert kinds(run_of(square(3, 5, robots), rows)) == {kind}
 
 
+def test_robots_that_move_before_their_start_time():
+    late = square(3, 5, [(2, 1), (4, 1)], start_times=[0, 2])
+    assert kinds(run_of(late, [[WEST, WAIT], [WEST, WAIT], [WAIT, WEST]])) == set()
+    (early,) = (c for c in audit_run(run_of(late, [[WEST, WAIT], [WEST, WEST]])).conflicts if c.kind == "start")
+    assert str(early) == "step 2: robot 1 leaves (4, 1) before its start time, 2"
+
+
 def test_a_barrier_counts_from_the_step_in_which_it_appears():
     scenario = square(3, 5, [(1, 1)])
     door = Occurrence(Event(2, "barrier", cell=(3, 1)), blocked=(8,))

@@ -202,18 +202,21 @@ def test_areas_in_metres_can_have_cells_of_equal_area(tmp_path):
         assert row["free_cells"] == pytest.approx(108 / 0.25, rel=0.25)
 
 
-def test_the_rule_of_a_run_decides_on_the_least_cells_for_robots(tmp_path):
+def test_the_rules_of_a_run_decide_on_the_least_cells_for_robots(tmp_path):
     (tmp_path / "hall.wkt").write_text("POLYGON ((0 0, 5 0, 5 4, 0 4, 0 0))")
-    text = 'robots = [3]\nrules = [{following = "forbid"}, {following = "allow"}]\n'
-    text += '[[areas]]\npath = "hall.wkt"\nrobot_radius = 0.1\n'
+    head = 'robots = [3]\nrules = [{following = "forbid"}, {following = "allow"}]\n'
+    text = head + '[[areas]]\npath = "hall.wkt"\nrobot_radius = 0.1\n'
     sized = '[[areas]]\npath = "hall.wkt"\ncell_size = 0.5\nrobot_radius = 0.1\n'
     rows = th.run_study(written(tmp_path, text + sized))
     assert [(row["following"], row["cell_size"]) for row in rows] == [
         ("forbid", 0.231), ("allow", 0.4), ("forbid", 0.5), ("allow", 0.5),
     ]  # fmt: skip
+    timed = 'robots = [2]\nrules = [{clock = "costs"}, {clock = "steps"}]\ntessellations = ["square"]\n'
+    rows = th.run_study(written(tmp_path, timed + '[[areas]]\npath = "hall.wkt"\nrobot_radius = 0.1\n'))
+    assert [(row["clock"], row["cell_size"]) for row in rows] == [("costs", 0.4334), ("steps", 0.4473)]
     # A place with room by one rule alone is no mistake of the file: told at once only where the first rule has none.
     (tmp_path / "hall.wkt").write_text("POLYGON ((0 0, 0.35 0, 0.35 0.35, 0 0.35, 0 0))")
-    th.read_study(written(tmp_path, text.split('[[areas]]\npath = "hall.wkt"\ncell_size')[0]))
+    th.read_study(written(tmp_path, text))
 
 
 def test_what_a_file_of_letters_names_is_used(tmp_path):
@@ -241,3 +244,17 @@ def test_a_row_tells_lengths_and_waits():
     scenario = th.Scenario(th.Area("square", [[0, 0, 0]]), [(1, 0)], [(0, 0), (2, 0)], destination_capacity=1)
     row = run_case({"scenario": scenario, "planner": {"name": "greedy", "options": {}}, "bound": False})
     assert (row["waits"], row["most_waiting"], row["lower_bound_name"]) == (1, 1, "distance")
+
+
+def test_robots_may_begin_later(tmp_path):
+    (tmp_path / "starts.csv").write_text("x,y,start\n0,0,4\n1,0,0\n")
+    robots = '[{count = 4, start_times = ["uniform:3,9", "constant:5"]}, {file = "starts.csv"}, 4]'
+    text = f'robots = {robots}\nplanners = ["greedy"]\n[[areas]]\ngenerator = "random"\nsize = [9, 7]\ndensity = 0\n'
+    rows = list(th.run_study(written(tmp_path, text)))
+    assert not any(row["error"] for row in rows)
+    assert len({row["scenario"] for row in rows}) == 4
+    assert rows[0]["placement"] == '{"count":4,"start_times":"uniform:3,9"}' and rows[3]["placement"] == "uniform"
+    at_once, late = rows[3], rows[1]
+    assert late["total_time"] >= at_once["total_distance"] + 4 * 5 * 10 and rows[2]["total_waiting"] >= 40
+    with pytest.raises(th.FormatError, match=r"robots.0.start_times.1: must be drawn as one of .*, not 'soon'"):
+        th.read_study(written(tmp_path, text.replace("constant:5", "soon")))

@@ -59,19 +59,25 @@ def browser():
 
 @pytest.fixture
 def open_viewer(browser, tmp_path):
-    """Open the viewer in a new window: call it with what is shown first, and with options of the window."""
+    """Open the viewer in a new window: call it with what is shown first, and with options of the window.
+
+    The page asks for what is `asked` by itself. Where a `script` runs before it, nobody waits for the document.
+    """
     closing = []
 
-    def open_it(first=None, **window):
-        desk = Desk(Folder(tmp_path))
+    def open_it(first=None, asked=None, script=None, **window):
+        desk = Desk(Folder(tmp_path), asked)
         viewing = make_viewing(desk, None if first is None else desk.show(first))
         running = viewing.running()
         running.__enter__()
         context = browser.new_context(**{"viewport": {"width": 1280, "height": 800}, **window})
         closing.append((context, running))
         shown = Shown(context.new_page(), ARTEFACTS)
+        if script:
+            shown.page.add_init_script(script)
         shown.page.goto(viewing.address)
-        shown.wait("app.doc && !app.job")
+        if not script:
+            shown.wait("app.doc && !app.job")
         return shown
 
     yield open_it

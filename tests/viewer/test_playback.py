@@ -189,7 +189,7 @@ RUNNERS = """async ([width, height, frames]) => {
   const { Runners } = await import("./viewer.js");
   const doc = { header: { tessellation: "triangular" }, width, height }, runners = new Runners();
   return frames.map(([cells, steps]) => {
-    runners.move(doc, Int32Array.from(cells), new Uint8Array(cells.length), steps);
+    runners.move(doc, { cells: Int32Array.from(cells), sets: new Uint8Array(cells.length) }, steps);
     return [[...runners.bx], [...runners.by]];
   });
 }"""

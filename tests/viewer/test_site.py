@@ -56,6 +56,8 @@ def test_a_folder_plays_and_compares_without_a_server_of_ours(browser, tmp_path)
         shown.wait("app.fields?.directions")
         shown.press("Plan")
         shown.wait("app.runs[0] && !app.job")
+        page.get_by_label("Map", exact=True).select_option("waiting")
+        shown.wait("app.panes[0].layer")
         page.get_by_label("Planner beside it").select_option("optimal")
         shown.press("Compare")
         shown.wait("app.runs[1] && !app.job && app.runs[0].summary.lower_bound_name === 'optimum'")
@@ -119,7 +121,7 @@ def test_the_command_writes_it(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     th.write_scenario(yard(), "yard.toml")
     done = CliRunner().invoke(main, ["view", "yard.toml", "--export", "site", "--planners", "fcost"])
-    assert done.exit_code == 0 and "site/index.html: 10 files" in done.output, done.output
+    assert done.exit_code == 0 and "site/index.html: 16 files" in done.output, done.output
     for words, told in (
         (["view", "--planners", "fcost"], "--planners is for --export"),
         (["view", "--export", "."], "holds other files"),

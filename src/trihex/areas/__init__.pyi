@@ -21,14 +21,25 @@ from .coverage import (
     cover_polygons as cover_polygons,
     cover_raster as cover_raster,
 )
+from .door import (
+    Door as Door,
+    make_doors as make_doors,
+)
 from .entries import (
     entries_per_step as entries_per_step,
     ways_into_destinations as ways_into_destinations,
 )
 from .fit import (
     Fit as Fit,
+    kinds_to_fit as kinds_to_fit,
     make_fits as make_fits,
     round_up_size as round_up_size,
+)
+from .flow import (
+    check_flow as check_flow,
+    flow_from as flow_from,
+    flow_in_words as flow_in_words,
+    plain_flow as plain_flow,
 )
 from .frame import (
     Frame as Frame,
@@ -77,8 +88,16 @@ from .scenario import (
     Scenario as Scenario,
     random_robots as random_robots,
 )
+from .schedule import (
+    Schedule as Schedule,
+)
 from .seconds import (
     seconds_per_step as seconds_per_step,
+)
+from .start_times import (
+    check_distribution as check_distribution,
+    random_start_times as random_start_times,
+    start_times_of as start_times_of,
 )
 from .tessellation import (
     CLOCKS as CLOCKS,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from math import ceil, sqrt
 
 from trihex.areas.frame import Frame
@@ -102,7 +103,9 @@ def check_cell_size(tessellation: Tessellation, frame: Frame, following: str) ->
     )
 
 
-def check_rules(tessellation: Tessellation, frame: Frame, crossing: str, destination_capacity: int | None) -> None:
+def check_rules(
+    tessellation: Tessellation, frame: Frame, crossing: str, destination_capacity: int | Fraction | None
+) -> None:
     """Raise ScenarioError if the rules let robots that have a radius overlap."""
     if frame.robot_radius == 0:
         return
@@ -111,7 +114,7 @@ def check_rules(tessellation: Tessellation, frame: Frame, crossing: str, destina
             f"crossing must be 'forbid' for robots of radius {frame.robot_radius:g}, not {crossing!r}: "
             "two that pass one vertex meet there"
         )
-    if destination_capacity != 1:
+    if destination_capacity is None or destination_capacity > 1:
         raise ScenarioError(
             f"destination_capacity must be 1 for robots of radius {frame.robot_radius:g}, not "
             f"{destination_capacity}: those that enter together meet there; name more destinations instead"

@@ -37,5 +37,5 @@ def entries_per_step(scenario: Scenario) -> int:
     name = ways_into_destinations(scenario)
     ways_of_destination = (name >= 0).sum(axis=1)
     if scenario.destination_capacity is not None:
-        ways_of_destination = np.minimum(ways_of_destination, scenario.destination_capacity)
+        ways_of_destination = np.minimum(ways_of_destination, scenario.entry_limit)
     return int(min(ways_of_destination.sum(), np.unique(name[name >= 0]).size))

@@ -1,9 +1,9 @@
-"""Fit: what robots of a radius find in a place, on cells of one kind and under one rule for following."""
+"""Fit: what robots of a radius find in a place, on cells of one kind and under one rule for following and time."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import ceil
 
@@ -14,7 +14,7 @@ from trihex.areas.area import Area
 from trihex.areas.clearance import least_cell_size, least_distance
 from trihex.areas.regions import Regions, make_regions
 from trihex.areas.scenario import FOLLOWINGS
-from trihex.areas.tessellation import Tessellation
+from trihex.areas.tessellation import CLOCKS, Tessellation
 from trihex.record import Record
 
 # Covers the place: from tessellation, cell size, radius and `align` to an area and the cells of its destinations, which
@@ -31,6 +31,7 @@ class Fit(Record):
     Attributes
     ----------
     tessellation : Tessellation
+        Its clock tells how long moves last.
     following : {"allow", "forbid"}
         Whether a robot may enter a cell in the step in which another leaves it; if not, smaller cells are enough.
     robot_radius, cell_size : float
@@ -53,6 +54,16 @@ class Fit(Record):
     destinations: NDArray[np.int64]
     greatest_radius: float | None = None
     why: str = ""
+
+    @property
+    def clocks(self) -> tuple[str, ...]:
+        """The clocks by which all this is so: that of the tessellation, or both, "steps" and "costs"."""
+        own = least_distance(self.tessellation, following=self.following)
+        return tuple(
+            clock
+            for clock in CLOCKS
+            if least_distance(replace(self.tessellation, clock=clock), following=self.following) == own
+        )
 
     @cached_property
     def _regions(self) -> Regions | None:
@@ -90,7 +101,7 @@ def make_fits(
     cell_size: float | None = None,
     align: str = "best",
 ) -> Iterator[Fit]:
-    """Yield what fits for each tessellation and each rule for following.
+    """Yield what fits for all `kinds_to_fit`.
 
     Parameters
     ----------
@@ -103,19 +114,39 @@ def make_fits(
     align : {"corner", "best"}
         As for `cover_aligned`; radii are searched for with "shift" in place of "best".
     """
-    for tessellation in tessellations:
-        for following in FOLLOWINGS:
+    for tessellation, following in kinds_to_fit(tessellations):
+        radius = robot_radius
+        if radius is None and cell_size is not None:
             near = least_distance(tessellation, following=following)
-            radius = robot_radius
-            if radius is None and cell_size is not None:
-                radius = int(cell_size * near / 2 * 1e4 * (1 + 1e-9)) / 1e4
-            greatest = _greatest_radius(lay, tessellation, following, radius or 0.1, align)
-            radius = greatest if radius is None else radius
-            if radius is None:
-                nothing = np.empty(0, dtype=np.int64)
-                yield Fit(tessellation, following, 0.0, 0.0, None, nothing, None, "no robot reaches a destination")
-                continue
-            yield _fit(lay, tessellation, following, radius, cell_size, align, greatest)
+            radius = int(cell_size * near / 2 * 1e4 * (1 + 1e-9)) / 1e4
+        greatest = _greatest_radius(lay, tessellation, following, radius or 0.1, align)
+        radius = greatest if radius is None else radius
+        if radius is None:
+            nothing = np.empty(0, dtype=np.int64)
+            yield Fit(tessellation, following, 0.0, 0.0, None, nothing, None, "no robot reaches a destination")
+            continue
+        yield _fit(lay, tessellation, following, radius, cell_size, align, greatest)
+
+
+def kinds_to_fit(tessellations: list[Tessellation]) -> list[tuple[Tessellation, str]]:
+    """Return each tessellation with each rule for following; clocks of one kind and rule stand together.
+
+    Those that differ from one before in the clock alone are left out where it changes nothing.
+
+    Examples
+    --------
+    >>> kinds = kinds_to_fit([Tessellation("square", clock=clock) for clock in ("steps", "costs")])
+    >>> [(tessellation.clock, following) for tessellation, following in kinds]
+    [('steps', 'allow'), ('costs', 'allow'), ('steps', 'forbid')]
+    """
+    kinds: dict[tuple[str, str, str, str, float], tuple[Tessellation, str]] = {}
+    for following in FOLLOWINGS:
+        for tessellation in tessellations:
+            near = least_distance(tessellation, following=following)
+            own = (tessellation.name, tessellation.neighbourhood, tessellation.costs)
+            kinds.setdefault((*own, following, near), (tessellation, following))
+    order = {key[:3]: number for number, key in reversed(list(enumerate(kinds)))}
+    return [kinds[key] for key in sorted(kinds, key=lambda key: order[key[:3]])]
 
 
 def _fit(

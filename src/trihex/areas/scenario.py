@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import cached_property
+from math import ceil
 from typing import Any
 
 import numpy as np
@@ -11,16 +13,21 @@ from numpy.typing import NDArray
 
 from trihex.areas.area import Area
 from trihex.areas.clearance import check_cell_size, check_rules, usual_following
+from trihex.areas.door import Door, make_doors
+from trihex.areas.flow import flow_from, flow_in_words
 from trihex.areas.nearest import nearest_free_cell
 from trihex.areas.places import cells_from
+from trihex.areas.schedule import Schedule, schedule_of
 from trihex.areas.tessellation import CLOCKS
-from trihex.errors import ScenarioError, check_choice, check_type, check_whole
-from trihex.record import Record, counted, read_only
+from trihex.areas.zone import Zone
+from trihex.errors import ScenarioError, check_choice, check_type, check_whole, is_whole
+from trihex.record import Record, counted, read_only, short
 
 CROSSINGS = ("forbid", "allow")
 CORNERS = ("allow", "no-squeeze", "no-cut")
 FOLLOWINGS = ("allow", "forbid")
 _MOST = 2**30  # the largest whole number that a parameter may be: sums of a few fit into int32
+_MOST_START_TIME = 2**24  # steps; planners count half ticks in int32
 _BLOCK = 1 << 24  # sites a kernel looks at in one call, even; Ctrl-C works in between
 
 
@@ -44,9 +51,10 @@ class Scenario(Record):
     corners : {"allow", "no-squeeze", "no-cut"}
         When a vertex move is open: always; if one way round the vertex meets no barrier; if no barrier touches the
         vertex. What lies outside the area counts as barrier.
-    destination_capacity : int, optional
+    destination_capacity : int, Fraction, float or str, optional
         How many robots may enter one destination in one step, or be entering it at a time. Default: any number; 1 in an
-        area with a frame.
+        area with a frame. A fraction such as 0.5 or "1/3" is a flow: see `Door`; so is "1.6/s", robots a second, in an
+        area with a frame, if no robot is faster than 1 metre in a second.
     clock : {"steps", "costs"}, optional
         "steps": every move lasts one step. "costs": a move lasts as long as it costs, in ticks, and waiting costs 1 a
         tick, so that t_r is the tick of arrival; see `Tessellation`, whose clock is the default. In an area with a
@@ -58,6 +66,14 @@ class Scenario(Record):
         Default: "allow"; in an area with a frame "forbid" where that alone makes its cells large enough.
     seed : int, optional
         What drew the robots, for reports.
+    start_times : sequence of int, or int, optional
+        After how many steps (ticks) each robot may begin its first move, or all of them; until then it stands where it
+        starts, and is in the way: people who have not reacted to the alarm yet. Kept as int64. t_r counts from step 0,
+        so until then a robot waits. One that starts on a destination has arrived at step 0 all the same. Default: 0.
+    doors : mapping, or sequence, optional
+        Places that only so many robots enter in a step, exits or passages: flows by the names of zones, such as
+        ``{"north": "1.6/s"}``, or pairs (places, flow), or what `make_doors` makes. Where a destination is one, its
+        flow stands in the place of a `destination_capacity` that is a fraction; one that is whole holds as well.
 
     Raises
     ------
@@ -80,10 +96,12 @@ class Scenario(Record):
     waiting_cost: int = None  # type: ignore[assignment]
     crossing: str = "forbid"
     corners: str = "allow"
-    destination_capacity: int | None = None
+    destination_capacity: int | Fraction | None = None
     seed: int | None = None
     clock: str = None  # type: ignore[assignment]
     following: str = None  # type: ignore[assignment]
+    start_times: NDArray[np.int64] = ()  # type: ignore[assignment]
+    doors: tuple[Door, ...] = ()
 
     def __post_init__(self) -> None:
         check_type("area", self.area, Area, error=ScenarioError)
@@ -96,13 +114,15 @@ class Scenario(Record):
         if self.destination_capacity is None and area.frame is not None:
             self._set("destination_capacity", 1)
         if self.destination_capacity is not None:
-            check_whole("destination_capacity", self.destination_capacity, 1, _MOST, ScenarioError)
+            flow = flow_from("destination_capacity", self.destination_capacity, area)
+            self._set("destination_capacity", int(flow) if flow.denominator == 1 else flow)
         if self.following is None:
             self._set("following", usual_following(area.tessellation, area.frame))
         check_choice("following", self.following, FOLLOWINGS, ScenarioError)
         if area.frame is not None:
             check_cell_size(area.tessellation, area.frame, self.following)
             check_rules(area.tessellation, area.frame, self.crossing, self.destination_capacity)
+        self._set("doors", make_doors(area, self.doors))
         for parameter, one in (("destinations", "destination"), ("robots", "robot")):
             cells = cells_from(area, getattr(self, parameter), parameter, ScenarioError)
             self._check_free(cells, one)
@@ -111,6 +131,7 @@ class Scenario(Record):
             raise ScenarioError("destinations must name at least one cell")
         self._set("destinations", read_only(_without_repeats(self.destinations)))
         self._check_distinct()
+        self._set("start_times", read_only(_start_times(self.start_times, self.robot_count)))
 
     def _set_clock(self) -> None:
         """Set what costs the area has by the clock, and what waiting costs."""
@@ -137,7 +158,12 @@ class Scenario(Record):
         rules = {"waiting_cost": self.area.tessellation.waiting_cost, "crossing": "forbid", "corners": "allow"}
         rules["destination_capacity"] = None if self.area.frame is None else 1
         rules |= {"clock": "steps", "following": "allow"}
-        odd = [f"{name}={getattr(self, name)!r}" for name, usual in rules.items() if getattr(self, name) != usual]
+        odd = [
+            f"{name}={_in_words(getattr(self, name))}" for name, usual in rules.items() if getattr(self, name) != usual
+        ]
+        odd += [f"door {door.in_words()}" for door in self.doors]
+        if self.has_start_times:
+            odd.append(f"start_times=0..{self.start_times.max()}")
         goals = counted(self.destinations.size, "destination")
         return ", ".join([self.area.in_words(), goals, counted(self.robot_count, "robot"), *odd])
 
@@ -145,6 +171,24 @@ class Scenario(Record):
     def robot_count(self) -> int:
         """n, the number of robots."""
         return int(self.robots.size)
+
+    @cached_property
+    def has_start_times(self) -> bool:
+        """Whether some robot may not begin to move at once."""
+        return bool(self.start_times.any())
+
+    @property
+    def has_flows(self) -> bool:
+        """Whether some cells let robots in by a flow."""
+        return self.schedule.cells.size > 0
+
+    @property
+    def moves_by_steps(self) -> bool:
+        """Whether planners may let all robots act in every step: time is in steps alone, and nobody waits for a time.
+
+        Where robots wait until they may begin, or until a door opens, they are asked when it is time.
+        """
+        return self.is_stepwise and not self.has_start_times and not self.has_flows
 
     @property
     def forbids_crossing(self) -> bool:
@@ -180,8 +224,34 @@ class Scenario(Record):
 
     @property
     def entry_limit(self) -> int:
-        """How many robots may enter one destination in a step, 0 for any number: the capacity as kernels know it."""
-        return self.destination_capacity or 0
+        """How many robots may enter one destination in a step, 0 for any number: the capacity as kernels know it.
+
+        When they may do so `schedule` tells, where there are flows.
+        """
+        return ceil(self.destination_capacity or 0)
+
+    @cached_property
+    def schedule(self) -> Schedule:
+        """When those cells may be entered that let robots in by a flow: doors, and destinations of such a capacity."""
+        if not self.doors:
+            return schedule_of((), self.destinations, self.destination_capacity, np.ones(self.destinations.size, bool))
+        from trihex.areas.entries import ways_into_destinations
+
+        entered: NDArray[np.bool_] = np.asarray((ways_into_destinations(self) >= 0).any(axis=1))
+        return schedule_of(self.doors, self.destinations, self.destination_capacity, entered)
+
+    @property
+    def exit_zones(self) -> tuple[Zone, ...]:
+        """The zones of the area, without those that are doors which robots only pass."""
+        passed = {door.name for door in self.doors if not np.isin(door.cells, self.destinations).any()}
+        return tuple(zone for zone in self.area.zones if zone.name not in passed)
+
+    def flows_in_words(self, step_seconds: float | None = None) -> dict[str, str]:
+        """Return how many robots each door lets in, by its name or the place of its first cell: a second, or a step."""
+        return {
+            door.name or self.area.name_of_cell(int(door.cells[0])): flow_in_words(door.flow, self.area, step_seconds)
+            for door in self.doors
+        }
 
     @property
     def corner_rule(self) -> int:
@@ -226,8 +296,8 @@ class Scenario(Record):
         return read_only(closed)
 
     def with_robots(self, robots: Any, seed: int | None = None) -> Scenario:
-        """Return the same scenario with other robots."""
-        return replace(self, robots=robots, seed=seed)
+        """Return the same scenario with other robots, who may begin to move at once."""
+        return replace(self, robots=robots, seed=seed, start_times=())  # type: ignore[arg-type]
 
 
 def random_robots(area: Area, count: int, seed: int = 0, *, avoid: Any = ()) -> NDArray[np.int64]:
@@ -258,6 +328,10 @@ def random_robots(area: Area, count: int, seed: int = 0, *, avoid: Any = ()) -> 
     return np.random.default_rng(seed).choice(free, size=count, replace=False).astype(np.int64)
 
 
+def _in_words(value: Any) -> str:
+    return str(value) if isinstance(value, Fraction) else repr(value)
+
+
 def _check_free(area: Area, cells: NDArray[np.int64], one: str) -> None:
     stuck = np.flatnonzero(area.is_barrier(cells)) if cells.size else cells
     if stuck.size:
@@ -282,6 +356,24 @@ def _check_distinct(area: Area, robots: NDArray[np.int64]) -> None:
         one, other = int(order[same[0]]), int(order[same[0] + 1])
         where = area.name_of_cell(int(robots[one]))
         raise ScenarioError(f"two robots must not share a cell; robots {one} and {other} both start at {where}")
+
+
+def _start_times(given: Any, count: int) -> NDArray[np.int64]:
+    """Return the start time of each of `count` robots, given for each, as one for all, or not at all."""
+    if is_whole(given):
+        given = [given] * count
+    times = np.asarray(given)
+    if times.size == 0:
+        return np.zeros(count, dtype=np.int64)
+    if times.dtype.kind not in "iu" or times.ndim != 1:
+        raise ScenarioError(f"start_times must be whole numbers, one for each robot, not {short(given)}")
+    if times.size != count:
+        raise ScenarioError(f"start_times must be one for each of {counted(count, 'robot')}, not {times.size}")
+    wrong = np.flatnonzero((times < 0) | (times > _MOST_START_TIME))
+    if wrong.size:
+        rule = f"a whole number from 0 to {_MOST_START_TIME}"
+        raise ScenarioError(f"start_times[{wrong[0]}] must be {rule}, not {times[wrong[0]]}")
+    return times.astype(np.int64)
 
 
 def _without_repeats(cells: NDArray[np.int64]) -> NDArray[np.int64]:

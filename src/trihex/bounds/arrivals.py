@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from trihex.areas import Scenario
 from trihex.bounds.cuts import find_cuts
 from trihex.bounds.demand import make_demand
+from trihex.bounds.doors import arrivals_past_doors, hold_up_at_exits
 from trihex.bounds.queues import queue_past_cuts
 from trihex.bounds.rhythm import entry_headways
 from trihex.errors import check_type
@@ -65,5 +66,8 @@ def arrivals_bound(scenario: Scenario) -> EarliestArrivals:
     if entries.size * demand.nodes.count <= _MOST_SENT:
         cuts = find_cuts(demand, most_searches=_MOST_VISITS // (4 * scenario.area.free_count) + 1)
     queued = np.sort(queue_past_cuts(demand, cuts, entries))
+    if scenario.has_flows:
+        np.maximum(queued, arrivals_past_doors(demand), out=queued)
+        hold_up_at_exits(demand, queued)
     there = np.count_nonzero(np.isin(scenario.robots, scenario.destinations))
     return EarliestArrivals("cut", np.append(np.zeros(there, dtype=np.int64), queued))

@@ -2,35 +2,29 @@
 
 All bounds are sums of t_r over the robots that can arrive. What they forget, and how good they are, is told in
 docs/bounds.md.
-
-Where the clock is "costs" t_r is the tick of arrival; all bounds are bounds on arrivals then. Else a bound on *steps*
-becomes one on costs so: let m be the least that a step can cost, min(w_t, cheapest move), and 0 <= u <= m. Charge u for
-each step; what is left of a move is its cost less u, and of a wait w_t less u, neither negative. So t_r >= u * (steps
-of r) + (least sum of what is left on a way of r), for every u alike.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Scenario
+from trihex.bounds.bound import LowerBound
+from trihex.bounds.costs import least_cost, sum_of_distances, waits_before_starts
 from trihex.bounds.cuts import Cut, find_cuts
 from trihex.bounds.demand import Demand, make_demand
+from trihex.bounds.doors import arrivals_past_doors, hold_up_at_exits
 from trihex.bounds.gates import GateNetwork, make_gate_network
 from trihex.bounds.meetings import find_meeting_nodes
 from trihex.bounds.queues import queue_past_cuts
 from trihex.bounds.rhythm import entry_headways, queue_up
 from trihex.bounds.serving import least_arrivals
+from trihex.bounds.spreading import queue_bound
 from trihex.errors import PlanError, check_type, check_whole
 from trihex.fields import NScheme
-from trihex.kernels.codes import NOT_REACHED
-from trihex.record import Record
 
-_BUDGET = 2_000_000
 # What the cut bound may cost: ways into the destinations times nodes, sites visited by all searches, slots in memory
 # (some 50 bytes each), looks at slots. Together some seconds at worst, a fraction of what a plan of that size costs.
 _MOST_SENT = 100_000_000
@@ -38,22 +32,8 @@ _MOST_VISITS = 30_000_000
 _VISITS_PER_ROBOT = 3000  # few robots on a large area: 14 gates in place of 33 leave the bound within 0.001 %
 _MOST_SLOTS = 5_000_000
 _MOST_LOOKS = 50_000_000
+_MOST_CELLS = 10_000_000  # the queue bound visits each several times; it takes 5 s at 13 million, a million robots
 _MOST_SHIFTS = 5  # of the windows of gates, where they are longer than a step
-
-
-@dataclass(frozen=True, eq=False)
-class LowerBound(Record):
-    """A total time that no plan can beat.
-
-    Parameters
-    ----------
-    name : str
-        How it was found: "distance", "slot", ... or "optimum" where a plan proves that it can be attained.
-    value : int
-    """
-
-    name: str
-    value: int
 
 
 def make_lower_bound(n_scheme: NScheme, *, progress: Callable[[int, int], None] | None = None) -> LowerBound:
@@ -67,7 +47,10 @@ def make_lower_bound(n_scheme: NScheme, *, progress: Callable[[int, int], None] 
     50
     """
     check_type("n_scheme", n_scheme, NScheme)
-    makers = (distance_bound, slot_bound, cut_bound)
+    makers = [distance_bound, slot_bound, cut_bound]
+    scenario = n_scheme.scenario
+    if scenario.destinations.size > 1 and scenario.area.free_count <= _MOST_CELLS:
+        makers.append(queue_bound)
     bounds = []
     for make in makers:
         bounds.append(make(n_scheme))
@@ -77,10 +60,10 @@ def make_lower_bound(n_scheme: NScheme, *, progress: Callable[[int, int], None] 
 
 
 def distance_bound(n_scheme: NScheme) -> LowerBound:
-    """Sum of the N-scheme's values: nobody ever waits."""
+    """Sum of the N-scheme's values: nobody ever waits but until its start time."""
     check_type("n_scheme", n_scheme, NScheme)
-    distance = n_scheme.distance_of_cell(n_scheme.scenario.robots).astype(np.int64)
-    return LowerBound("distance", int(distance[distance != NOT_REACHED].sum()))
+    scenario = n_scheme.scenario
+    return LowerBound("distance", sum_of_distances(n_scheme) + scenario.waiting_cost * waits_before_starts(n_scheme))
 
 
 def slot_bound(n_scheme: NScheme) -> LowerBound:
@@ -93,7 +76,8 @@ def slot_bound(n_scheme: NScheme) -> LowerBound:
     demand = make_demand(n_scheme)
     slots = np.sort(demand.steps)
     queue_up(slots, entry_headways(demand.nodes))
-    return LowerBound("slot", _least_cost(n_scheme, int(slots.sum())))
+    hold_up_at_exits(demand, slots)
+    return LowerBound("slot", least_cost(n_scheme, int(slots.sum())))
 
 
 def cut_bound(
@@ -111,7 +95,7 @@ def cut_bound(
     """
     check_whole("most_gates", most_gates, 0, None, PlanError)
     check_type("n_scheme", n_scheme, NScheme)
-    return LowerBound("cut", _least_cost(n_scheme, _steps_past_gates(make_demand(n_scheme), most_gates, progress)))
+    return LowerBound("cut", least_cost(n_scheme, _steps_past_gates(make_demand(n_scheme), most_gates, progress)))
 
 
 def _steps_past_gates(demand: Demand, most_gates: int, progress: Callable[[int, int], None] | None) -> int:
@@ -121,6 +105,9 @@ def _steps_past_gates(demand: Demand, most_gates: int, progress: Callable[[int, 
     if entries.size * demand.nodes.count <= _MOST_SENT:
         cuts = find_cuts(demand, most_searches=_MOST_VISITS // (4 * free_cells) + 1)
     queued = queue_past_cuts(demand, cuts, entries)
+    if demand.scenario.has_flows:
+        np.maximum(queued, arrivals_past_doors(demand), out=queued)
+        hold_up_at_exits(demand, queued)
     visits = min(_MOST_VISITS, _VISITS_PER_ROBOT * demand.sites.size)
     gates = _choose_gates(demand, cuts, min(most_gates, visits // free_cells))
     horizon = int(queued.max(initial=0)) * 5 // 4 + 100
@@ -158,12 +145,13 @@ def _arrivals_past_gates(
     duration = demand.scenario.duration_of_direction
     left = np.full(demand.sites.size - served.size, last + 1 - int(duration.max() - duration.min()))
     queue_up(left, entries)
+    hold_up_at_exits(demand, left)
     return np.concatenate([served, np.maximum(left, last + 1)])
 
 
 def _choose_gates(demand: Demand, cuts: list[Cut], most: int) -> NDArray[np.int32]:
     """Return up to `most` nodes: the cut for all robots, those with the longest queues, the nodes where most meet."""
-    gates = np.empty(0, dtype=np.int32)
+    gates = _doors(demand, most // 2)
     for cut in cuts[-1:] + sorted(cuts[:-1], key=lambda cut: -cut.behind.size / cut.width):
         more = np.union1d(gates, cut.nodes)
         if more.size <= most:
@@ -172,47 +160,9 @@ def _choose_gates(demand: Demand, cuts: list[Cut], most: int) -> NDArray[np.int3
     return np.union1d(gates, find_meeting_nodes(demand, more_gates)) if more_gates > 3 else gates
 
 
-def _at_robots(n_scheme: NScheme, field: NDArray[np.int32]) -> NDArray[np.int64]:
-    """Return the values of `field` at the robots that can arrive."""
-    scenario = n_scheme.scenario
-    values = field[scenario.area.layout.cell_to_site(scenario.robots)].astype(np.int64)
-    return np.asarray(values[values != NOT_REACHED])
-
-
-def _least_cost(n_scheme: NScheme, steps: int) -> int:
-    """Return what robots must pay in all that need `steps` steps (ticks) in all."""
-    scenario = n_scheme.scenario
-    if scenario.clock == "costs":
-        return steps
-    cost = scenario.area.tessellation.cost_of_direction
-    return max(share * steps + _rest(n_scheme, cost - np.int32(share)) for share in _shares(scenario))
-
-
-def _shares(scenario: Scenario) -> Iterable[int]:
-    """Return what to charge for each step, see the top of the file."""
-    cost = scenario.area.tessellation.cost_of_direction
-    most = int(min(scenario.waiting_cost, cost.min()))
-    if (cost == cost[0]).all():
-        return [most]
-    # Two edge moves in place of a vertex move cost 2 e - v more and take a step more.
-    dearer = {int(2 * cost.min() - other) for other in cost}
-    return sorted({share for share in (most, most * 4 // 5, *dearer) if 0 < share <= most} or {most})
-
-
-def _rest(n_scheme: NScheme, cost: NDArray[np.int32]) -> int:
-    """Return the sum over robots of the least sum of `cost` on the way to a destination."""
-    from trihex.bounds.kernels import steps as kernels
-
-    scenario = n_scheme.scenario
-    layout = scenario.area.layout
-    if (cost == cost[0]).all():
-        return distance_bound(n_scheme).value * int(cost[0]) // scenario.area.tessellation.edge_cost
-    least = np.full(layout.size, NOT_REACHED, dtype=np.int32)
-    queue = np.empty(scenario.area.free_count + 1, dtype=np.int32)
-    is_queued = np.zeros(layout.size, dtype=bool)
-    state = np.array([0, scenario.destinations.size])
-    queue[: state[1]] = layout.cell_to_site(scenario.destinations)
-    least[queue[: state[1]]] = 0
-    while state[1]:
-        kernels.spread_costs(scenario.moves, layout.offset_of_direction, cost, least, queue, is_queued, state, _BUDGET)
-    return int(_at_robots(n_scheme, least).sum())
+def _doors(demand: Demand, most: int) -> NDArray[np.int32]:
+    """Return the doors that robots can pass, if they are no more than so many."""
+    sites = np.sort(demand.scenario.area.layout.cell_to_site(demand.scenario.schedule.cells)).astype(np.int32)
+    sites = sites[demand.nodes.steps_of_site[sites] >= 0]
+    is_few = demand.scenario.is_stepwise and demand.nodes.places(sites).sum() <= most
+    return sites if is_few else sites[:0]

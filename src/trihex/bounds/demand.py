@@ -33,17 +33,26 @@ class Demand(Record):
         return self.nodes.scenario
 
     @cached_property
+    def _robots(self) -> NDArray[np.int64]:
+        """Their numbers, those first that arrive last if nobody is in the way."""
+        steps = self.nodes.steps_of_site[self.scenario.area.layout.cell_to_site(self.scenario.robots)]
+        robots = np.flatnonzero(steps > 0)
+        return robots[np.argsort(-(steps + self.scenario.start_times)[robots], kind="stable")]
+
+    @cached_property
     def sites(self) -> NDArray[np.int32]:
-        """Sites of the robots, the farthest first."""
-        steps_of_site = self.nodes.steps_of_site
-        sites = self.scenario.area.layout.cell_to_site(self.scenario.robots)
-        sites = sites[steps_of_site[sites] > 0]
-        return read_only(sites[np.argsort(-steps_of_site[sites], kind="stable")])
+        """Sites of the robots, the farthest first, by `steps`."""
+        return read_only(self.scenario.area.layout.cell_to_site(self.scenario.robots[self._robots]))
+
+    @cached_property
+    def start_times(self) -> NDArray[np.int64]:
+        """After how many ticks each of them may begin to move."""
+        return read_only(self.scenario.start_times[self._robots])
 
     @cached_property
     def steps(self) -> NDArray[np.int64]:
-        """Least number of ticks of each of them, descending."""
-        return read_only(self.nodes.steps_of_site[self.sites].astype(np.int64))
+        """Least number of ticks in which each of them can arrive, descending."""
+        return read_only(self.nodes.steps_of_site[self.sites] + self.start_times)
 
 
 def make_demand(n_scheme: NScheme) -> Demand:

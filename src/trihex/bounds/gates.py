@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from trihex.bounds.demand import Demand
 from trihex.record import Record
+
+if TYPE_CHECKING:
+    from trihex.bounds.kernels.nodes import NodeGraph
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,6 +23,8 @@ class GateNetwork(Record):
 
     Parameters
     ----------
+    site, copy : int32 arrays, shape (gates,)
+        The site that each gate is (-1: a lattice vertex), and which of its copies, from 0.
     gap : int32 array, shape (gates,)
         How many ticks there are at least between two robots that pass a gate.
     steps_out : int32 array, shape (gates,)
@@ -28,13 +33,15 @@ class GateNetwork(Record):
         Gate g is entered from gate ``arc_gate[a]`` no sooner than ``arc_steps[a]`` steps later, for a in
         ``first_arc[g]:first_arc[g + 1]``.
     first_robot, robot, robot_steps : arrays
-        Likewise by robots after their start, the nearest first.
+        Likewise by robots after step 0, the earliest first.
     robot_count : int
         Number of robots in the lists.
     free_steps : int64 array
         Least number of ticks of each robot that passes no gate.
     """
 
+    site: NDArray[np.int32]
+    copy: NDArray[np.int32]
     gap: NDArray[np.int32]
     steps_out: NDArray[np.int32]
     first_arc: NDArray[np.int64]
@@ -49,23 +56,42 @@ class GateNetwork(Record):
 
 def make_gate_network(demand: Demand, nodes: NDArray[np.int32]) -> GateNetwork:
     """Measure the ways between `nodes`, the robots and the destinations; one search in breadth for each gate."""
-    return _Survey(demand, np.unique(nodes)).network()
+    return Survey(demand, np.unique(nodes)).network()
 
 
-class _Survey:
-    """The searches of `make_gate_network`, which share their arrays."""
+def robots_past(demand: Demand, nodes: NDArray[np.int32]) -> NDArray[np.bool_]:
+    """Tell of each robot whether it can only arrive past one of `nodes`, or starts there."""
+    return Survey(demand, np.unique(nodes)).robots_past()
 
-    def __init__(self, demand: Demand, nodes: NDArray[np.int32]) -> None:
+
+class Survey:
+    """Searches around gates or destinations, which share their arrays.
+
+    Parameters
+    ----------
+    demand : Demand
+    nodes : int32 array
+        The gates.
+    graph : NodeGraph, optional
+        With other durations, and other `steps` to the nearest destination, than those of the nodes.
+    detour : int, optional
+        How much longer than to the nearest destination the way may be.
+    """
+
+    def __init__(
+        self, demand: Demand, nodes: NDArray[np.int32], graph: NodeGraph | None = None, detour: int = 2**30
+    ) -> None:
         from trihex.bounds.kernels.gates import Landmarks, Surroundings
         from trihex.kernels.signatures import given
 
-        lines = np.unique(demand.scenario.duration_of_direction).size
+        self.graph = demand.nodes.graph if graph is None else graph
+        lines = np.unique(self.graph.duration).size
         self.demand, self.nodes = demand, nodes
         size, count = demand.scenario.area.layout.size, demand.nodes.count
         # Only a destination passes more than one robot: it stands in the list once for each of them.
         self.is_destination = np.zeros(nodes.size, dtype=bool)
         self.is_destination[nodes < size] = demand.nodes.is_destination[nodes[nodes < size]]
-        self.copies = np.where(self.is_destination, max(demand.scenario.entry_limit, 1), 1)
+        self.copies = demand.nodes.places(nodes)
         self.gate_of_node = np.full(count, -1, dtype=np.int32)
         self.gate_of_node[nodes] = np.arange(nodes.size)
         self.robot_at = np.full(count, -1, dtype=np.int32)
@@ -86,6 +112,7 @@ class _Survey:
             when=np.empty(lines * count, dtype=np.int32),
             head=np.zeros(lines, dtype=np.int64),
             tail=np.zeros(lines, dtype=np.int64),
+            detour=detour,
         )
 
     def look(self, gate: int, starts: NDArray[np.int32]) -> tuple[list[NDArray[np.int32]], int]:
@@ -93,17 +120,35 @@ class _Survey:
         from trihex.bounds.kernels import gates as kernels
 
         found = self.found
-        kernels.look_around(gate, starts, self.demand.nodes.graph, self.landmarks, found)
+        kernels.look_around(gate, starts, self.graph, self.landmarks, found)
         gates, robots, out = found.count.tolist()
         near = [found.near_gate[:gates], found.gate_steps[:gates]]
         near += [found.near_robot[:robots], found.robot_steps[:robots]]
         return [part.copy() for part in near], out
 
+    @property
+    def visits(self) -> int:
+        """How many nodes the last search has come to."""
+        found = self.found
+        return int((found.tail - np.arange(found.tail.size) * found.steps.size).sum())
+
+    def robots_past(self) -> NDArray[np.bool_]:
+        """Tell of each robot whether it cannot arrive without passing a gate."""
+        is_past = np.ones(self.demand.sites.size, dtype=bool)
+        is_past[self._free()] = False
+        return is_past
+
+    def _free(self) -> NDArray[np.int32]:
+        """Return the robots that can arrive without passing a gate."""
+        size = self.demand.scenario.area.layout.size
+        is_start = self.demand.nodes.is_destination & (self.gate_of_node[:size] < 0)
+        (_, _, free, _), _ = self.look(-1, np.flatnonzero(is_start).astype(np.int32))
+        return np.asarray(free)
+
     def network(self) -> GateNetwork:
         """Look around from the destinations, then from every gate."""
         demand, size = self.demand, self.demand.scenario.area.layout.size
-        is_start = demand.nodes.is_destination & (self.gate_of_node[:size] < 0)
-        (_, _, free, _), _ = self.look(-1, np.flatnonzero(is_start).astype(np.int32))
+        free = self._free()
         self.robot_at[demand.sites[free]] = -1
         steps_out, arcs, robots = [], [], []
         # The number of the first copy of each gate.
@@ -117,11 +162,17 @@ class _Survey:
             onto = ~self.is_destination[gates]
             into = gate_steps[onto] + through
             into[self.nodes[gates[onto]] >= size] -= demand.nodes.vertex_duration
+            when = robot_steps + through + demand.start_times[near]
+            order = np.argsort(when, kind="stable")
             for _ in range(self.copies[gate]):
                 arcs.append((first_copy[gates[onto]], into))
-                robots.append((near, robot_steps + through))
+                robots.append((near[order], when[order]))
                 steps_out.append(0 if self.is_destination[gate] else out)
+        site = np.where(self.nodes < size, self.nodes, -1).astype(np.int32)
+        copy = np.arange(self.copies.sum()) - np.repeat(first_copy, self.copies)
         return GateNetwork(
+            np.repeat(site, self.copies),
+            copy.astype(np.int32),
             demand.nodes.headways(self.nodes).astype(np.int32),
             np.array(steps_out, dtype=np.int32),
             *_chained(arcs),

@@ -59,6 +59,38 @@ class Nodes(Record):
         """How long the shortest move lasts that passes a vertex."""
         return int(self.scenario.duration_of_direction[self.scenario.first_vertex_move :].min(initial=2**30))
 
+    def places(self, nodes: NDArray[np.integer]) -> NDArray[np.int64]:
+        """Return how many robots each of `nodes` lets in at a time: one, but for destinations."""
+        scenario, size = self.scenario, self.scenario.area.layout.size
+        is_entry = (nodes < size) & self.is_destination[np.where(nodes < size, nodes, 0)]
+        places = np.where(is_entry, max(scenario.entry_limit, 1), 1).astype(np.int64)
+        if scenario.has_flows and scenario.is_stepwise:
+            schedule, most = scenario.schedule, np.zeros(size, dtype=np.int64)
+            most[scenario.area.layout.cell_to_site(schedule.cells)] = -(-schedule.rate // schedule.period)
+            own = np.where(is_entry, most[np.where(is_entry, nodes, 0)], 0)
+            places = np.where(own > 0, np.minimum(own, scenario.entry_limit or own), places)
+        return places
+
+    @cached_property
+    def doors_apart(self) -> NDArray[np.int64]:
+        """How many ticks at least there are between two robots that come into each site by its flow; 0 for no door.
+
+        Not where a robot starts: it is there without coming in.
+        """
+        schedule, layout = self.scenario.schedule, self.scenario.area.layout
+        apart = np.zeros(layout.size, dtype=np.int64)
+        apart[layout.cell_to_site(schedule.cells)] = schedule.period // schedule.rate
+        apart[layout.cell_to_site(self.scenario.robots)] = 0
+        return read_only(apart)
+
+    def queue_headways(self, nodes: NDArray[np.integer]) -> NDArray[np.int64]:
+        """Return the same as `headways`, or how far apart doors let robots in where that is more."""
+        headway, size = self.headways(nodes), self.scenario.area.layout.size
+        if not self.scenario.has_flows:
+            return headway
+        apart = np.where(nodes < size, self.doors_apart[np.where(nodes < size, nodes, 0)], 0)
+        return np.asarray(np.maximum(headway, np.repeat(apart, self.places(nodes))))
+
     def headways(self, nodes: NDArray[np.integer]) -> NDArray[np.int64]:
         """Return how many ticks there are at least between two robots that pass one of `nodes`.
 
@@ -69,7 +101,7 @@ class Nodes(Record):
         is_entry = is_site & self.is_destination[np.where(is_site, nodes, 0)]
         # From half of the move on a robot fills one of the places, where others may follow, else as long as it moves.
         headway[is_entry] = (scenario.headway + 1) // 2
-        return np.repeat(headway, np.where(is_entry, max(scenario.entry_limit, 1), 1))
+        return np.repeat(headway, self.places(nodes))
 
     @cached_property
     def graph(self) -> NodeGraph:

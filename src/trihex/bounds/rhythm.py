@@ -48,7 +48,7 @@ def _entry_choices(nodes: Nodes, ways: NDArray[np.int64]) -> list[NDArray[np.int
         sites = scenario.area.layout.cell_to_site(scenario.destinations)
         headway = np.where(ways >= 0, nodes.headways(np.maximum(ways, 0).reshape(-1)).reshape(ways.shape), 2**30)
         entry = nodes.headways(sites)
-        is_less = scenario.destination_capacity / entry[0] <= (1 / headway).sum(axis=1)
+        is_less = scenario.entry_limit / entry[0] <= (1 / headway).sum(axis=1)
         rest = np.unique(ways[~is_less])
         choices.append(np.concatenate([nodes.headways(sites[is_less]), nodes.headways(rest[rest >= 0])]))
     return choices

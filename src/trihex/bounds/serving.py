@@ -40,6 +40,8 @@ def least_arrivals(
     gates = _gates_of(demand, network, horizon + shift, shift)
     slots = _make_slots(network, gates.width, demand.sites.size)
     search, state = _make_search(network, gates.width), np.zeros(6, dtype=np.int64)
+    if demand.scenario.has_flows and demand.scenario.is_stepwise:
+        _shut_doors(demand, network, gates.width, search.seen)
     state[kernels.STEP], looks = -1, 0
     while state[kernels.SERVED] < gates.robots and state[kernels.STEP] < gates.horizon and looks < most_looks:
         kernels.serve_robots(gates, slots, search, state, min(_BUDGET, most_looks - looks))
@@ -85,6 +87,25 @@ def _gates_of(demand: Demand, network: GateNetwork, horizon: int, shift: int) ->
         horizon=horizon,
     )
     return gates
+
+
+def _shut_doors(demand: Demand, network: GateNetwork, width: int, seen: NDArray[np.int32]) -> None:
+    """Let searches pass by the slots of doors in steps in which these let nobody in.
+
+    Not where a robot starts: it passes its door without coming in.
+    """
+    from trihex.bounds.kernels.serving import DEAD
+
+    schedule, layout = demand.scenario.schedule, demand.scenario.area.layout
+    door_of_site = np.full(layout.size, -1, dtype=np.int64)
+    door_of_site[layout.cell_to_site(schedule.cells)] = np.arange(schedule.cells.size)
+    door_of_site[demand.sites] = -1
+    gates = np.flatnonzero((network.site >= 0) & (door_of_site[network.site] >= 0))
+    steps = np.arange(1, width)
+    openings = schedule.openings_at(door_of_site[network.site[gates]], steps[:, None])
+    step, gate = np.nonzero(openings <= network.copy[gates])
+    slots = gates[gate] * width + steps[step]
+    seen[slots] = seen[slots + seen.size // 2] = DEAD
 
 
 def _make_slots(network: GateNetwork, width: int, robots: int) -> GateSlots:

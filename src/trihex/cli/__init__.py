@@ -17,6 +17,7 @@ COMMANDS = {
     "compare": "Compare planners: total time, gap, steps, seconds.",
     "study": "Do many runs as one table, by many processes or a cluster.",
     "check": "Tell whether a plan is safe.",
+    "prices": "Tell what each wall and each door costs.",
     "score": "Tell how far a recorded crowd is from the best possible.",
     "animate": "Draw the robots of a plan on their way.",
     "view": "Open the viewer: paint, plan, play, compare and run live in a browser.",

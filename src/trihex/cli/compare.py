@@ -60,8 +60,8 @@ def command(
     check_outputs((out, (".csv",), "a table"), (picture, (".png", ".svg", ".pdf"), "a chart"))
     names = tessellations or ((options["tessellation"],) if options["tessellation"] else ())
     uses = (*(planner_from(label)[0] for label in planners or ("greedy", "fcost")), "audit", "bound")
-    scenarios = _scenarios(area, names, uses, options)
     with bar("planning", "plans") as progress:
+        scenarios = _scenarios(area, names, uses, options)
         comparison = make_comparison(scenarios, planners or _default_planners(scenarios), progress=progress)
     rows = comparison.rows()
     if out:

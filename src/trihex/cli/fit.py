@@ -13,6 +13,7 @@ from trihex.cli.group import DONE, NO
 from trihex.cli.options import PATH, area_options, destination_option, read_described, wrong_use
 from trihex.cli.outputs import check_outputs, tell_written
 from trihex.cli.progress import bar
+from trihex.cli.types import Name
 
 if TYPE_CHECKING:
     from trihex.areas import Fit, Tessellation
@@ -22,6 +23,11 @@ if TYPE_CHECKING:
 @click.argument("area", type=PATH)
 @area_options
 @destination_option
+@click.option(
+    "--clock",
+    type=Name("trihex.areas.tessellation", "CLOCKS"),
+    help="Whether moves last a step each, or as long as they cost. [default: both, where cells depend on it]",
+)
 @click.option("--picture", type=PATH, metavar="FILE", help="All of them drawn beside each other, as .png.")
 def command(area: Path, picture: Path | None, **options: Any) -> int:
     """Tell for all kinds of cells how small they can be for robots of a radius, and what these then find in a place.
@@ -35,7 +41,7 @@ def command(area: Path, picture: Path | None, **options: Any) -> int:
 
     Exit status 1: robots find no free cell, whatever the cells.
     """
-    from trihex.areas import make_fits
+    from trihex.areas import kinds_to_fit, make_fits
 
     check_outputs((picture, (".png",), "a picture"))
     goals = options.pop("destination")
@@ -47,7 +53,7 @@ def command(area: Path, picture: Path | None, **options: Any) -> int:
     with bar("fitting", "kinds") as progress:
         for fit in make_fits(lambda *how: _laid(area, goals, options, *how), kinds, radius, size, align):
             fits.append(fit)
-            progress(len(fits), 2 * len(kinds))
+            progress(len(fits), len(kinds_to_fit(kinds)))
     if radius is None and size is None and not any(fit.free_count for fit in fits):
         raise wrong_use("no robot reaches a destination: add --robot-radius R, --cell-size S or --destination X,Ym")
     click.echo("\n".join(fit_lines(fits)))
@@ -63,11 +69,13 @@ def command(area: Path, picture: Path | None, **options: Any) -> int:
 
 def _tessellations(options: dict[str, Any]) -> list[Tessellation]:
     """Return all tessellations, or those that options name."""
-    from trihex.areas import NEIGHBOURHOODS, TESSELLATIONS, Tessellation
+    from trihex.areas import CLOCKS, NEIGHBOURHOODS, TESSELLATIONS, Tessellation
 
     names = TESSELLATIONS if options["tessellation"] is None else (options["tessellation"],)
     reaches = NEIGHBOURHOODS if options["neighbourhood"] is None else (options["neighbourhood"],)
-    kinds = [Tessellation(name, reach, options["costs"] or "paper") for name in names for reach in reaches]
+    clocks = CLOCKS if options["clock"] is None else (options["clock"],)
+    costs = options["costs"] or "paper"
+    kinds = [Tessellation(name, reach, costs, clock) for name in names for reach in reaches for clock in clocks]
     # Hexagons have no neighbours but those across edges.
     return [kind for kind in kinds if kind.name != "hexagonal" or kind.neighbourhood == reaches[0]]
 
@@ -78,7 +86,7 @@ def _laid(path: Path, goals: Sequence[tuple[float, float]], options: dict[str, A
     from trihex.formats import NoRoomError
 
     tessellation, size, radius, align = how
-    given = {"tessellation": tessellation, "neighbourhood": None, "costs": None, "align": align}
+    given = {"tessellation": tessellation, "neighbourhood": None, "costs": None, "clock": None, "align": align}
     try:
         draft = read_described(path, {**options, **given, "cell_size": size, "robot_radius": radius})
         if draft.area.ground is None:
@@ -97,6 +105,7 @@ def fit_lines(fits: Sequence[Fit]) -> list[str]:
         "cells",
         "neighbours",
         "following",
+        "clock",
         "cell size",
         "radius",
         "free",
@@ -107,15 +116,20 @@ def fit_lines(fits: Sequence[Fit]) -> list[str]:
     )
     rows = [_row(fit) for fit in fits]
     notes = [
-        f"{row[0]}, {row[1]} neighbours, following {row[2]}: {fit.why}"
+        f"{row[0]}, {row[1]} neighbours, following {row[2]}{_by_clock(fit)}: {fit.why}"
         for row, fit in zip(rows, fits, strict=True)
         if fit.why
     ]
-    return [*table_lines(header, rows, left=3), *notes]
+    return [*table_lines(header, rows, left=4), *notes]
+
+
+def _by_clock(fit: Fit) -> str:
+    return f", clock {fit.clocks[0]}" if len(fit.clocks) == 1 else ""
 
 
 def _row(fit: Fit) -> list[str]:
-    kind = [fit.tessellation.name, str(fit.tessellation.direction_count), fit.following]
+    clock = fit.clocks[0] if len(fit.clocks) == 1 else "any"
+    kind = [fit.tessellation.name, str(fit.tessellation.direction_count), fit.following, clock]
     sizes = [f"{fit.cell_size:g} m" if fit.cell_size else "-", f"{fit.robot_radius:g} m" if fit.robot_radius else "-"]
     reach, greatest = fit.reaching_share, fit.greatest_radius
     shares = [

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from trihex.cli.progress import bar
-from trihex.cli.types import Metres, Name, Place, Seconds, Share, Whole
+from trihex.cli.types import Flow, FlowOf, Metres, Name, Place, Seconds, Share, Whole
 
 if TYPE_CHECKING:
     from trihex.areas import Area, Scenario
@@ -22,7 +22,7 @@ PATH = click.Path(path_type=Path)
 
 
 # What `rule_options` adds, and what `formats.options.AreaOptions` takes besides the tessellation.
-RULES = ("waiting_cost", "crossing", "corners", "destination_capacity", "clock", "following", "destination")
+RULES = ("waiting_cost", "crossing", "corners", "destination_capacity", "clock", "following", "destination", "capacity")
 _PLACE = (
     *("cell_size", "robot_radius", "clearance", "unknown", "threshold", "invert", "resolution", "align"),
     *("walls", "exits", "rooms", "unit", "wall_thickness"),
@@ -84,8 +84,16 @@ def rule_options(command: Command) -> Command:
     for option in (
         click.option(
             "--destination-capacity",
-            type=Whole(1),
-            help="Robots that may enter one destination in one step. [default: any number; 1 in metres]",
+            type=Flow(),
+            help="Robots that may enter one destination in one step, as 1 or 0.5, or in metres a second, as 1.6/s. "
+            "[default: any number; 1 in metres]",
+        ),
+        click.option(
+            "--capacity",
+            type=FlowOf(),
+            multiple=True,
+            help="How many robots may enter an exit or a door, a zone by its name or a cell, as north=1.6/s or "
+            "3,4=0.5; may be repeated.",
         ),
         click.option(
             "--crossing",
@@ -129,10 +137,17 @@ def robot_options(command: Command) -> Command:
     for option in (
         click.option("--seed", type=Whole(0), help="What draws the robots. [default: 0]"),
         click.option(
+            "--start-times",
+            metavar="LAW:NUMBERS",
+            help="When they begin to move, drawn: constant:T, uniform:A,B, normal:MEAN,SD or lognormal:MEAN,SD, in "
+            "seconds in places in metres, else in steps. [default: all at once]",
+        ),
+        click.option(
             "--starts",
             type=PATH,
             metavar="FILE",
-            help="CSV of their cells, header x,y, or places, header x_metres,y_metres; or a MovingAI .scen.",
+            help="CSV of their cells, header x,y, or places, header x_metres,y_metres, and perhaps when they begin to "
+            "move, start; or a MovingAI .scen.",
         ),
         click.option(
             "--robots", type=Whole(0), help="How many robots to draw at random, or to take from --starts, the first."
@@ -183,8 +198,8 @@ def read_described(path: Path, options: dict[str, Any]) -> Draft:
     from trihex.formats import read_draft
 
     place = {name: options[name] for name in _PLACE}
-    if place["robot_radius"] and not place["cell_size"]:  # the least cells depend on the rule
-        place["following"] = options.get("following")
+    if place["robot_radius"] and not place["cell_size"]:  # the least cells depend on the rules
+        place |= {name: options.get(name) for name in ("clock", "following")}
     with bar("covering", "rows") as progress:
         draft = read_draft(
             path,
@@ -205,31 +220,48 @@ def _changed(draft: Draft, options: dict[str, Any]) -> Draft:
 
     from trihex.areas import cells_from
     from trihex.errors import ScenarioError
-    from trihex.files import read_bytes
-    from trihex.formats import format_of, read_starts
 
-    rules = [name for name in RULES if name != "destination"]
+    rules = [name for name in RULES if name not in ("destination", "capacity")]
     changes: dict[str, Any] = {name: options[name] for name in rules if options.get(name) is not None}
+    if options.get("capacity"):
+        told = {str(place): (place, flow) for place, flow in options["capacity"]}
+        changes["doors"] = (*(door for door in draft.doors if str(door[0]) not in told), *told.values())
     if options.get("destination"):
         cells = [_cell_of(draft.area, place) for place in options["destination"]]
         changes["destinations"] = cells_from(draft.area, cells, "--destination", ScenarioError)
+    return replace(draft, **changes, **_robots_of(draft, options))
+
+
+def _robots_of(draft: Draft, options: dict[str, Any]) -> dict[str, Any]:
+    """Return what the options say of the robots of a draft, by the names of its fields."""
+    from trihex.areas import check_distribution
+    from trihex.files import read_bytes
+    from trihex.formats import format_of, read_start_times, read_starts
+
     count, starts, seed = options.get("robots"), options.get("starts"), options.get("seed")
+    times = options.get("start_times")
+    if times is not None:
+        check_distribution(times)
+    elif isinstance(draft.start_times, str) or (count is None and starts is None):
+        times = draft.start_times
+    changes: dict[str, Any] = {"start_times": times}
+    draws_times = isinstance(times, str)
     if count is not None and starts is None:
-        changes |= {"random_count": count, "robots": None, "seed": seed}
-    elif seed is not None and count is not None:
+        return {**changes, "random_count": count, "robots": None, "seed": seed}
+    if seed is not None and not draws_times and count is not None:
         raise wrong_use("--seed draws robots; with --starts none are drawn")
-    elif seed is not None and (starts is not None or draft.random_count is None):
+    if seed is not None and not draws_times and (starts is not None or draft.random_count is None):
         raise wrong_use("--seed draws robots: add --robots N")
-    elif starts is not None:
-        robots = read_starts(starts, draft.area)
+    if starts is not None:
+        robots, own = read_starts(starts, draft.area), read_start_times(starts)
         if count is not None and count > robots.size:
             raise wrong_use(f"--robots takes the first of {starts}: at most {robots.size}, not {count}")
-        changes |= {"robots": robots[:count], "random_count": None, "seed": None}
+        if times is None and own is not None:
+            changes["start_times"] = own[:count]
         if format_of(read_bytes(starts), starts) == "scen":
             click.echo(f"trihex: goals of {starts} are not used: all robots go to the destinations", err=True)
-    elif seed is not None:
-        changes["seed"] = seed
-    return replace(draft, **changes)
+        return {**changes, "robots": robots[:count], "random_count": None, "seed": seed}
+    return changes if seed is None else {**changes, "seed": seed}
 
 
 def _cell_of(area: Area, place: tuple[Any, Any]) -> tuple[int, int]:
@@ -306,7 +338,10 @@ def read_judged(
     if options["destination"]:  # whoever names a barrier here is wrong, not the plan
         replace(draft, robots=None).complete()
     scenario = claimed(draft.complete) if for_judge else draft.complete()
-    return plan if scenario == plan.scenario else replace(plan, scenario=scenario, optimal=False)
+    is_same = scenario == plan.scenario
+    if is_same and scenario.area.ground is None:
+        return plan
+    return replace(plan, scenario=scenario, optimal=plan.optimal and is_same)  # the ground is no part of it
 
 
 def read_played(path: Path, area: Path | None, options: dict[str, Any], **more: Any) -> Motion:

@@ -77,6 +77,8 @@ def command(
 
     Exit status 1: some robots cannot arrive. The others are planned and all outputs are written.
     """
+    from dataclasses import replace
+
     from trihex.planners import check_planner_options
 
     outputs: dict[str, Any] = {name: value for name, value in named._asdict().items() if value is not None}
@@ -87,11 +89,13 @@ def command(
     seconds = {"read": perf_counter() - begin}
     outputs = draft.outputs | outputs
     _check_outputs(outputs, write_scenario)
+    draft = replace(draft, outputs=outputs)  # speed tells how long a step lasts
     planner = planner or draft.planner or "fcost"
     planner_options = {**(draft.planner_options if planner == draft.planner else {}), **_parsed(planner_option)}
     check_planner_options(planner, planner_options)
-    if "certificate" in outputs:
-        _check_certifiable(draft, planner)
+    if "certificate" in outputs and planner != "optimal":
+        raise wrong_use(f"--certificate proves what planner 'optimal' plans, not {planner!r}")
+    _check_before(draft, straight=straight, certificate="certificate" in outputs)
     scenario = complete(draft, *_uses(planner, outputs))
     if scenario.area.frame is None:
         if "waypoints" in outputs:
@@ -122,16 +126,23 @@ def _uses(planner: str, outputs: dict[str, Any]) -> list[str]:
     return [*uses, *(use for use in ("picture", "certificate") if use in outputs)]
 
 
-def _check_certifiable(draft: Any, planner: str) -> None:
-    """Raise unless a certificate can be had for what is planned, whatever robots there are."""
+def _check_before(draft: Any, *, straight: bool, certificate: bool) -> None:
+    """Raise unless what is planned can be straightened and certified as asked, whatever robots there are."""
     from dataclasses import replace
 
-    from trihex.optimum import check_certifiable
+    if draft.destinations is None or not (straight or certificate):  # it is told a little later that there is none
+        return
+    scenario = replace(draft, robots=None, random_count=None).complete()
+    if certificate:
+        from trihex.optimum import check_certifiable
 
-    if planner != "optimal":
-        raise wrong_use(f"--certificate proves what planner 'optimal' plans, not {planner!r}")
-    if draft.destinations is not None:  # or it is told a little later that there is none
-        check_certifiable(replace(draft, robots=None, random_count=None).complete())
+        check_certifiable(scenario)
+        if draft.has_start_times:
+            raise wrong_use("--certificate needs robots that may all begin at once, without start times")
+    if straight:
+        from trihex.planners import check_straightenable
+
+        check_straightenable(scenario)
 
 
 def _check_outputs(outputs: dict[str, Any], write_scenario: Path | None) -> None:

@@ -1,4 +1,4 @@
-"""Progress: on a terminal, what is done for over a second and how far it has come; nothing elsewhere."""
+"""Progress: on a terminal, within a second what is done and how far it has come; nothing elsewhere."""
 
 from __future__ import annotations
 
@@ -7,14 +7,17 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from shutil import get_terminal_size
 from threading import Event, Thread
+from time import monotonic
 from typing import Any
 
 import click
 
-_DELAY = 1.0  # seconds; until then not even tqdm is imported, which takes a tenth of a second
+_DELAY = 0.8  # seconds since the command began; until then not even tqdm is imported, which takes a tenth of a second
+_LEAST = 0.3  # seconds that something takes before it gets a bar
 _PERIOD = 0.5  # seconds from one look at the clock to the next
 _MANY = 100_000  # from here on counts are told in thousands
 _WIDTH = 30  # of the bar while kernels are compiled
+_BEGIN = monotonic()  # the command line imports this file first
 
 
 class _Bar:
@@ -39,7 +42,8 @@ class _Bar:
         self._thread.join()
 
     def _run(self) -> None:
-        if self._is_over.wait(_DELAY):
+        begin = monotonic()
+        if self._is_over.wait(max(_LEAST, _BEGIN + _DELAY - begin)):
             return
         from tqdm import tqdm
 
@@ -55,7 +59,7 @@ class _Bar:
             ncols=columns - 1,
             nrows=lines,
         )
-        shown.start_t -= _DELAY
+        shown.start_t -= monotonic() - begin
         while True:
             shown.total, shown.n, shown.unit_scale = self.total or None, self.done, self.total >= _MANY
             shown.clear() if self.is_hidden else shown.refresh()

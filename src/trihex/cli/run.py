@@ -23,7 +23,7 @@ from trihex.cli.options import (
 )
 from trihex.cli.outputs import check_outputs, tell_written
 from trihex.cli.progress import bar
-from trihex.cli.texts import exit_lines
+from trihex.cli.texts import door_lines, exit_lines
 from trihex.cli.types import Amount, Name, Seconds, Share, Whole
 
 
@@ -153,6 +153,8 @@ def _check_beginning(beginning: Beginning, way: Way) -> None:
 
 def _trial_of(beginning: Beginning, way: Way, options: dict[str, Any], pace: dict[str, Any]) -> Any:
     """Return the trial that begins in an area, or that goes on where a run ended."""
+    from dataclasses import replace
+
     from trihex.running import Sensor, Trial
 
     if beginning.resume is not None:
@@ -160,6 +162,7 @@ def _trial_of(beginning: Beginning, way: Way, options: dict[str, Any], pace: dic
     if beginning.area is None:
         raise wrong_use("there is no AREA: name one, or add --plan PLAN or --resume RUN")
     draft = read_described(beginning.area, options)
+    draft = replace(draft, outputs=draft.outputs | pace)  # speed tells which second is which step
     scenario = complete(draft, "trial", way.planner or draft.planner or "fcost", "bound")
     sensor = None if way.sense is None else Sensor(scenario.area.tessellation, way.sense, way.line_of_sight)
     return Trial(
@@ -270,6 +273,7 @@ def run_lines(report: Any) -> list[str]:
         f"{numbers['arrived']} arrived in {numbers['steps']} steps, {ends}; {numbers['events']} events, "
         f"{numbers['refused_events']} refused",
         *exit_lines(numbers["arrivals_of_exit"], numbers["arrived"]),
+        *door_lines(numbers),
         f"total time {numbers['total_time']}; with full knowledge and no events {numbers['reference_time']} "
         f"({numbers['reference_planner']}){price}; lower bound {numbers['lower_bound']}",
         f"{100 * numbers['known']:.1f} % of the cells known, {numbers['repairs']} repairs touched "

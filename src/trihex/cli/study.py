@@ -35,24 +35,35 @@ def command(study: Path, out: Path | None, jobs: int | None, scheduler: str | No
 
     Exit status 1: some runs failed, or made an unsafe plan.
     """
-    from trihex.files import check_output
-    from trihex.studies import check_results, journal_of, read_study, write_study
-
     if jobs and scheduler:
         raise wrong_use("--jobs and --scheduler exclude each other")
     out = study.with_suffix(".csv") if out is None else out
-    check_results(out)
-    check_output(out)
-    runs = read_study(study)
     try:
-        with _workers(scheduler) as executor, _progress() as progress:
-            outcome = write_study(runs, out, executor=executor, jobs=jobs, progress=progress)
+        with _progress() as progress:  # what is needed is imported under it, or nothing would be seen meanwhile
+            outcome = _written(study, out, jobs, scheduler, progress)
     except (KeyboardInterrupt, SystemExit):
-        click.echo(f"trihex: what is done is kept in {journal_of(out)}; the same command goes on", err=True)
+        from trihex.studies import journal_of
+
+        if journal_of(out).exists():
+            click.echo(f"trihex: what is done is kept in {journal_of(out)}; the same command goes on", err=True)
         raise
     amiss = [f", {count} {what}" for count, what in ((outcome.failed, "failed"), (outcome.unsafe, "unsafe")) if count]
     click.echo(f"{out}: {outcome.runs} runs{''.join(amiss)}")
     return NO if amiss else DONE
+
+
+def _written(
+    study: Path, out: Path, jobs: int | None, scheduler: str | None, progress: Callable[[int, int], None]
+) -> Any:
+    """Do the runs and write the table; return what became of them."""
+    from trihex.files import check_output
+    from trihex.studies import check_results, read_study, write_study
+
+    check_results(out)
+    check_output(out)
+    runs = read_study(study)
+    with _workers(scheduler) as executor:
+        return write_study(runs, out, executor=executor, jobs=jobs, progress=progress)
 
 
 def _workers(scheduler: str | None) -> Any:

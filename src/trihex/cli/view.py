@@ -41,7 +41,6 @@ def command(file: Path | None, area: Path | None, port: int, no_browser: bool, *
     """
     from trihex.files import read_bytes
     from trihex.formats import FORMATS, format_of
-    from trihex.kernels.preparing import prepare
     from trihex.viewer import open_viewer
 
     export, planners = options.pop("export"), options.pop("planners")
@@ -59,7 +58,6 @@ def command(file: Path | None, area: Path | None, port: int, no_browser: bool, *
         raise wrong_use("--planners is for --export")
     if export is not None:
         return _export(record, export, planners)
-    prepare("fcost", "audit", "bound", "trial")  # or the first click would wait for it, and nobody would know why
     try:
         open_viewer(record, port=port, browser=not no_browser, tell=_tell)
     except KeyboardInterrupt:

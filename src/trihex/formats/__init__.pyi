@@ -16,6 +16,13 @@ from .draft import (
 from .field_npy import (
     write_field as write_field,
 )
+from .prices_csv import (
+    PRICES_SUFFIXES as PRICES_SUFFIXES,
+    write_prices as write_prices,
+)
+from .prices_journal import (
+    PricesJournal as PricesJournal,
+)
 from .reading import (
     likeness_of as likeness_of,
     read_area as read_area,
@@ -47,6 +54,7 @@ from .starts.csv import (
     write_starts as write_starts,
 )
 from .starts.starts import (
+    read_start_times as read_start_times,
     read_starts as read_starts,
 )
 from .text import (

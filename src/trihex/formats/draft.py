@@ -4,12 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Area, Scenario, random_robots
+from trihex.areas import (
+    Area,
+    Door,
+    Scenario,
+    flow_from,
+    make_doors,
+    random_robots,
+    random_start_times,
+    seconds_per_step,
+    start_times_of,
+)
 from trihex.errors import ScenarioError
 from trihex.record import Record
 
@@ -23,10 +34,17 @@ class Draft(Record):
     area : Area
     destinations, robots : int64 arrays of shape (n,), optional
         Cell numbers.
+    start_times : int64 or float64 array of shape (n,), or str, optional
+        Of the robots: steps if whole numbers, else as `start_times_of` takes them; or a distribution to draw them from
+        by `seed`, as for `random_start_times`.
     random_count : int, optional
         How many robots to draw by `seed`, instead of `robots`.
     seed : int, optional
-    waiting_cost, destination_capacity : int, optional
+    waiting_cost : int, optional
+    destination_capacity : int, float, Fraction or str, optional
+        A flow, as `Scenario` takes it.
+    doors : tuple of pairs
+        (name of a zone or places, flow), as `Scenario` takes them.
     crossing, corners, clock, following : str, optional
     planner : str, optional
     planner_options : dict
@@ -45,13 +63,21 @@ class Draft(Record):
     waiting_cost: int | None = None
     crossing: str | None = None
     corners: str | None = None
-    destination_capacity: int | None = None
+    destination_capacity: int | float | Fraction | str | None = None
     planner: str | None = None
     planner_options: dict[str, Any] = field(default_factory=dict)
     outputs: dict[str, Any] = field(default_factory=dict)
     clock: str | None = None
     following: str | None = None
     notes: tuple[str, ...] = ()
+    doors: tuple[tuple[Any, Any], ...] = ()
+    start_times: NDArray[Any] | str | None = None
+
+    @property
+    def has_start_times(self) -> bool:
+        """Whether robots may not all begin to move at once."""
+        times = self.start_times
+        return isinstance(times, str) or (times is not None and bool(np.any(times)))
 
     def with_notes(self, notes: Iterable[str]) -> Draft:
         """Return the same draft with things that the reader of a file wants to be told."""
@@ -71,19 +97,45 @@ class Draft(Record):
         if len(destinations) == 0:
             raise ScenarioError("destinations must name at least one cell")
         names = ("crossing", "corners", "clock", "following")
+        capacity, doors = self._flows()
         scenario = kind(
             self.area,
             destinations,  # type: ignore[arg-type]
             () if self.robots is None else self.robots,  # type: ignore[arg-type]
             waiting_cost=self.waiting_cost,  # type: ignore[arg-type]
-            destination_capacity=self.destination_capacity,
+            destination_capacity=capacity,
             seed=self.seed,
+            doors=doors,
             **{name: rule for name in names if (rule := getattr(self, name)) is not None},
         )
-        if self.random_count is None:
+        if self.random_count is not None:
+            seed = self.seed or 0
+            scenario = scenario.with_robots(_draw(scenario, self.random_count, seed), seed)
+        elif self.robots is None:
             return scenario
-        seed = self.seed or 0
-        return scenario.with_robots(_draw(scenario, self.random_count, seed), seed)
+        if self.start_times is None:
+            return scenario
+        return replace(scenario, start_times=self.steps_of_starts(scenario.area, scenario.robot_count))
+
+    def steps_of_starts(self, area: Area, count: int) -> NDArray[np.int64]:
+        """Return the start times of so many robots, in steps of the area."""
+        given, pace = self.start_times, {n: v for n, v in self.outputs.items() if n in ("speed", "turn_time")}
+        if given is None:
+            return np.zeros(count, dtype=np.int64)
+        if isinstance(given, str):
+            return random_start_times(area, count, given, self.seed or 0, **pace)
+        times = np.asarray(given)
+        return start_times_of(area, times, **pace) if times.dtype.kind == "f" else times
+
+    def _flows(self) -> tuple[int | Fraction | None, tuple[Door, ...]]:
+        """Return the capacity of destinations and the doors, by how long a step lasts as outputs say it."""
+        area = self.area if self.clock is None else self.area.with_clock(self.clock)
+        pace = {n: v for n, v in self.outputs.items() if n in ("speed", "turn_time")} if area.frame is not None else {}
+        capacity = self.destination_capacity
+        if capacity is not None:
+            lasts = None if area.frame is None else seconds_per_step(area, **pace)
+            capacity = flow_from("destination_capacity", capacity, area, lasts)
+        return capacity, make_doors(area, self.doors, **pace)
 
 
 def _draw(scenario: Scenario, count: int, seed: int) -> NDArray[np.int64]:
@@ -103,4 +155,11 @@ def draft_of(scenario: Scenario) -> Draft:
     """Return the draft that completes to `scenario`; a waiting cost like that of an edge stays so if costs change."""
     names = ("destinations", "robots", "seed", "crossing", "corners", "destination_capacity", "clock", "following")
     waiting_cost = None if scenario.waiting_cost == scenario.area.tessellation.waiting_cost else scenario.waiting_cost
-    return Draft(scenario.area, waiting_cost=waiting_cost, **{name: getattr(scenario, name) for name in names})
+    zones = {zone.name: zone.cells.tolist() for zone in scenario.area.zones}
+    doors = tuple(
+        (door.name if zones.get(door.name) == door.cells.tolist() else door.cells.tolist(), door.flow)
+        for door in scenario.doors
+    )
+    given = {name: getattr(scenario, name) for name in names}
+    start_times = scenario.start_times if scenario.has_start_times else None
+    return Draft(scenario.area, waiting_cost=waiting_cost, start_times=start_times, doors=doors, **given)

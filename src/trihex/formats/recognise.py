@@ -31,7 +31,8 @@ def format_of(content: bytes, path: object) -> str:
     for name, form in FORMATS.items():
         if suffix in form.suffixes or form.is_format_of(text if form.is_text else binary):
             return name
-    commas = text.partition(b"\n")[0].count(b",")
+    first = text.partition(b"\n")[0].lstrip()
+    commas = first.count(b",")
     if suffix == ".csv" and commas:  # with a wrong header, of which the parser will tell
-        return "starts" if commas == 1 else "plan"
+        return "starts" if commas == 1 or first.startswith((b"x,", b"x_")) else "plan"
     return "letters"

@@ -14,7 +14,7 @@ import numpy as np
 from trihex.errors import PlanError, check_type, check_whole
 from trihex.judging.conflict import STOPS, Conflict, conflict_from
 from trihex.judging.reach import is_reachable
-from trihex.judging.starts import conflicts_of_starts
+from trihex.judging.starts import conflicts_of_start_times, conflicts_of_starts
 from trihex.judging.stepwise import judged_by_steps
 from trihex.judging.timed import judged_by_ticks
 from trihex.plans import Plan
@@ -85,7 +85,7 @@ def audit_plan(plan: Plan, limit: int = 100, *, progress: Callable[[int, int], N
     check_whole("limit", limit, 0, None, PlanError)
     judged = judged_by_steps if plan.scenario.is_stepwise else judged_by_ticks
     found, count, stopped, last = judged(plan, limit, progress)
-    at_start = conflicts_of_starts(plan.scenario)
+    at_start = np.concatenate([conflicts_of_starts(plan.scenario), conflicts_of_start_times(plan)])
     found, count = np.concatenate([at_start, found]), count + len(at_start)
     is_clear = ~plan.scenario.area.is_barrier(plan.scenario.robots[stopped])
     stopped, last = stopped[is_clear], last[is_clear]

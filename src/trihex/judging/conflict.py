@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from trihex.areas import Scenario
 
-KINDS = ("cell", "exchange", "crossing", "jump", "barrier", "corner", "capacity", "arrival")
+KINDS = ("cell", "exchange", "crossing", "jump", "barrier", "corner", "capacity", "arrival", "start")
 
 # By the codes of `kernels.findings`, in their order, and those below: the kind, how many robots and cells belong to it,
 # and how it reads.
@@ -24,12 +24,14 @@ _CODES = (
     ("capacity", 1, 1, "robot {0} is one too many to enter destination {a}"),
     ("arrival", 1, 1, "robot {0} acts on after it has entered destination {a}"),
     ("cell", 2, 1, "robots {0} and {1} both own cell {a}"),
+    ("capacity", 1, 1, "robot {0} enters the door {a} while it is shut"),
     ("arrival", 1, 1, "robot {0} ends in {a}, which is no destination, though it could have reached one"),
     ("barrier", 1, 1, "robot {0} starts on the barrier {a}"),
     ("barrier", 0, 1, "destination {a} is a barrier"),
+    ("start", 1, 1, "robot {0} leaves {a} before its start time, {start}"),
 )
 SHARES_CELL = 0
-STOPS, STARTS_ON_BARRIER, AIMS_AT_BARRIER = range(len(_CODES) - 3, len(_CODES))
+STOPS, STARTS_ON_BARRIER, AIMS_AT_BARRIER, STARTS_EARLY = range(len(_CODES) - 4, len(_CODES))
 
 
 @dataclass(frozen=True)
@@ -49,8 +51,8 @@ class Conflict:
     cells : tuple of (x, y)
         "cell": where both are. "exchange": where each came from. "crossing": from, to, from, to. "jump", "barrier",
         "corner": from, to; only from, where a robot leaves the area; only the barrier, where it starts there or the
-        destination is one. "capacity": the destination. "arrival": where the robot stopped, or arrived before its last
-        action.
+        destination is one. "capacity": the destination, or the door. "arrival": where the robot stopped, or arrived
+        before its last action. "start": where the robot starts, which it leaves too early.
     text : str
         The same in words.
     """
@@ -72,4 +74,5 @@ def conflict_from(scenario: Scenario, row: NDArray[np.int32]) -> Conflict:
     robots = tuple(int(robot) for robot in row[2 : 2 + robot_count])
     x, y = area.cell_to_xy(area.layout.site_to_cell(row[4 : 4 + cell_count]))
     cells = tuple(zip(x.tolist(), y.tolist(), strict=True))
-    return Conflict(kind, int(row[1]), robots, cells, text.format(*robots, **dict(zip("abcd", cells, strict=False))))
+    named = dict(zip("abcd", cells, strict=False), start=scenario.start_times[robots[0]] if robots else 0)
+    return Conflict(kind, int(row[1]), robots, cells, text.format(*robots, **named))

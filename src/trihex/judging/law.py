@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from trihex.areas import Scenario
 
 if TYPE_CHECKING:
+    from trihex.judging.kernels.doors import GuardedCells
     from trihex.judging.kernels.law import Law
 
 
@@ -30,8 +31,23 @@ def make_law(scenario: Scenario) -> Law:
         capacity=scenario.entry_limit,
         duration=scenario.duration_of_direction,
         forbids_following=scenario.following == "forbid",
+        doors=_guarded_cells(scenario),
     )
     return law
+
+
+def _guarded_cells(scenario: Scenario) -> GuardedCells:
+    """Return the cells with a schedule, into which nobody has come yet."""
+    from trihex.judging.kernels.doors import GuardedCells
+    from trihex.kernels.signatures import given
+
+    schedule, layout = scenario.schedule, scenario.area.layout
+    place = np.full(layout.size if schedule.cells.size else 0, -1, dtype=np.int32)
+    place[layout.cell_to_site(schedule.cells)] = np.arange(schedule.cells.size)
+    step, count = np.zeros((2, schedule.cells.size), dtype=np.int32)
+    columns = {"rate": schedule.rate, "period": schedule.period, "phase": schedule.phase}
+    cells: GuardedCells = given(GuardedCells, place=place, step=step, count=count, **columns)
+    return cells
 
 
 def make_places(scenario: Scenario) -> NDArray[np.int32]:

@@ -22,13 +22,14 @@ _FCOST = (
     "planners.catchments",
 )
 _TIMELY = (*_DIRECTIONS, "planners.timely", "planners.tick_rows", "planners.slots", "plans.replay")
-_ASTAR = (*_FIELD, "areas.moves", "planners.astar", "planners.reservations", "plans.replay")
+_ASTAR = (*_FIELD, "areas.moves", "planners.astar", "planners.estimates", "planners.reservations", "plans.replay")
 _OPTIMUM = (*_FIELD, "areas.moves", "fields.steps", "optimum.paths", "optimum.single", "plans.replay")
 _BOUND = ("areas.moves", "fields.steps", "bounds.cuts", "bounds.gates", "bounds.meetings", "bounds.serving")
 _EXECUTION = (*_REPAIR, "running.stepping", "running.lines")
 
 #: What each use needs, by names of modules: "fields.front" is ``trihex.fields.kernels.front``. Every module that holds
-#: kernels is here, so that all can be compiled beforehand; shapes of fields have kernels of their own, `field_kernels`.
+#: kernels is here, so that all can be compiled beforehand (none that holds helpers alone: it would never count as
+#: compiled); shapes of fields have kernels of their own, `field_kernels`.
 KERNELS_OF: dict[str, tuple[str, ...]] = {
     "n_scheme": _FIELD,
     "d_scheme": _DIRECTIONS,
@@ -38,13 +39,27 @@ KERNELS_OF: dict[str, tuple[str, ...]] = {
     "timely greedy": _TIMELY,
     "timely fcost": (*_TIMELY, *_REPAIR, "planners.lanes", "planners.laying"),
     "optimal": _OPTIMUM,  # and, where robots crowd, one of two more: `trihex.planners.uses_of`
-    "optimal_crowd": (*_OPTIMUM, "optimum.prices", "optimum.raising", "optimum.serving"),
+    "optimal_crowd": (*_OPTIMUM, "optimum.lowering", "optimum.queues", "optimum.serving", "optimum.tolled"),
     "optimal_earliest": (*_OPTIMUM, *_FCOST, "optimum.earliest", "optimum.laid"),
-    "certificate": (*_FIELD, "areas.moves", "fields.steps", "optimum.laid", "optimum.tolls", "plans.replay"),
+    "certificate": (
+        *_FIELD,
+        "areas.moves",
+        "fields.steps",
+        "optimum.fair",
+        "optimum.laid",
+        "optimum.tolls",
+        "plans.replay",
+    ),
+    "prices": (
+        *_OPTIMUM,
+        *("bounds.cuts", "optimum.doors", "optimum.earliest", "optimum.laid", "optimum.late"),
+        *("optimum.opening", "optimum.tolls", "optimum.variation"),
+    ),
     "straight": (*_ASTAR, "planners.straight"),
     "audit": ("judging.audit", "plans.replay"),
     "timely audit": ("judging.timed", "plans.replay"),
-    "bound": (*_BOUND, "bounds.steps", "bounds.units"),
+    "bound": (*_BOUND, "bounds.mouths", "bounds.steps", "bounds.units"),
+    "slot_bound": ("fields.steps", "bounds.steps"),
     "execution": _EXECUTION,
     "trial": (*_EXECUTION, "running.sensing"),
     "dependencies": ("areas.moves", "plans.implied", "plans.rows", "plans.replay"),

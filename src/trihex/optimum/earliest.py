@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 
 from trihex.errors import PlanError
 from trihex.memory import limit_or_default
+from trihex.optimum.doors import find_shut_nodes
 from trihex.optimum.flow import Flow
 from trihex.optimum.network import Network
-from trihex.optimum.workspace import check_memory, start_nodes
+from trihex.optimum.workspace import check_memory, held_nodes, start_nodes
 from trihex.plans import Plan
 
 # Bytes for each node of a layer: a word, and its flow in the end.
@@ -56,6 +57,7 @@ def make_earliest_flow(
     from trihex.optimum.kernels.earliest import fill_slots
     from trihex.optimum.kernels.residual import BUDGET_SPENT, DONE, LIST_FULL
     from trihex.optimum.kernels.slots import SERVED, TOTAL
+    from trihex.optimum.kernels.words import DEAD, LABEL
 
     size = network.node_count
     layers = int(plan.arrival_step_of_robot[robots].max(initial=0)) + 1
@@ -63,7 +65,12 @@ def make_earliest_flow(
     check_memory(network, cells, layers, layers * size * _BYTES_PER_NODE, limit)
     graph = make_slot_graph(network)
     start = start_nodes(network, cells)
-    search = _make_search(network, lay_words(network, graph, plan, start, robots, layers))
+    words = lay_words(network, graph, plan, start, robots, layers)
+    words[held_nodes(network, cells)] = DEAD * LABEL
+    shut = find_shut_nodes(network, network.room, 0, layers)
+    words[shut.gates] = DEAD * LABEL
+    words[shut.slots] += shut.missing.astype(np.uint32)
+    search = _make_search(network, words)
     status = BUDGET_SPENT
     while status != DONE:
         if status == LIST_FULL:
@@ -72,7 +79,8 @@ def make_earliest_flow(
         status = fill_slots(graph, search, cells.size, _BUDGET)
         if progress:
             progress(int(search.state[SERVED]), cells.size)
-    return Flow(network, start, search.words.astype(np.uint8), int(search.state[TOTAL]) * network.unit)
+    steps = int(search.state[TOTAL]) - int(network.start_time[cells].sum())
+    return Flow(network, start, search.words.astype(np.uint8), steps * network.unit)
 
 
 def make_slot_graph(network: Network) -> Any:
@@ -101,7 +109,7 @@ def lay_words(
     laid = given(
         kernels.LaidPlan,
         start=start,
-        first_action=plan.first_action[robots],
+        first_action=plan.first_action[robots] + plan.scenario.start_times[robots],
         action=plan.actions,
         site_of_node=network.site_of_node,
         node_of_site=network.node_of_site,
@@ -119,7 +127,7 @@ def _make_search(network: Network, words: NDArray[np.uint32]) -> Any:
     from trihex.optimum.kernels.words import DEAD
 
     state = np.zeros(kernels.STATE_SIZE, dtype=np.int64)
-    state[kernels.GOAL] = network.node_count
+    state[kernels.GOAL], state[kernels.LAST] = network.node_count, words.size // network.node_count - 1
     return given(
         kernels.SlotSearch,
         words=words,

@@ -25,10 +25,10 @@ class Flow:
     ----------
     network : Network
     start_of_robot : ndarray of int64
-        Index of each robot's node at step 0, in the order in which they were served.
+        Index of each robot's node at step 0, or when it may go, in the order in which they were served.
     flow : ndarray of uint8, shape (layers * nodes,)
     total : int
-        Least sum of costs, in the unit of the cost table.
+        Least sum of costs from when robots may go, in the unit of the cost table.
     """
 
     network: Network
@@ -100,7 +100,7 @@ def _flow_of(work: Workspace) -> Flow:
 
 def _meet_seldom(network: Network, cells: NDArray[np.int64]) -> bool:
     """Tell whether robots are hardly held up at the destinations, in each step of which so many arrive and no more."""
-    distance = network.value[cells].astype(np.int64)
+    distance = np.sort(network.value[cells] + network.base * network.start_time[cells])
     index = np.arange(cells.size)
     entries = most_entries(network)
     # The latest of the slots that robots before may have taken; robots are in ascending order of value.

@@ -17,8 +17,8 @@ from trihex.optimum.passages import Passages, make_passages
 from trihex.record import Record, read_only
 
 OBJECTIVES = ("time", "steps")
-# How many robots may arrive in a step where there is no limit.
-_ANY_NUMBER = 255
+# How many robots may arrive in a step where there is no limit; as a byte of flow it is not that of a start.
+_ANY_NUMBER = 100
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,9 +26,11 @@ class Network(Record):
     """Nodes and arcs of one layer: cells that reach a destination, lattice vertices if crossing is forbidden, goals.
 
     A robot waits, crosses an edge, or enters a lattice vertex within the step and leaves it into the next step; since
-    every node takes one robot a step, nobody crosses anybody. Nodes are numbered cells first, destinations last. Layer
-    u holds each node at step u - hops: robots on their way to the destination stay in one layer, so that they and the
-    searches for them touch memory in few places. Node i of layer u has the index ``u * node_count + i``.
+    every node takes one robot a step, nobody crosses anybody. Whoever enters a cell that is a door passes its *gate* in
+    the same way: that is shut in some steps, while a robot may stay in the cell. Nodes are numbered cells first, then
+    vertices, gates, and destinations. Layer u holds each node at step u - hops: robots on their way to the destination
+    stay in one layer, so that they and the searches for them touch memory in few places. Node i of layer u has the
+    index ``u * node_count + i``.
 
     Costs are reduced, that is cost + value of the head - value of the tail >= 0, in units of their greatest common
     divisor.
@@ -37,8 +39,8 @@ class Network(Record):
     ----------
     scenario : Scenario
     site_of_node : ndarray of int32
-        Site of each cell and destination, number of each lattice vertex.
-    cell_count, vertex_count : int
+        Site of each cell and destination, number of each lattice vertex, site of the cell behind each gate.
+    cell_count, vertex_count, gate_count : int
     unit : int
         What all costs are multiples of.
     base : int
@@ -57,6 +59,7 @@ class Network(Record):
     site_of_node: NDArray[np.int32]
     cell_count: int
     vertex_count: int
+    gate_count: int
     unit: int
     base: int
     hops: NDArray[np.int32]
@@ -72,11 +75,11 @@ class Network(Record):
     @property
     def first_destination(self) -> int:
         """Nodes that are no destinations."""
-        return self.cell_count + self.vertex_count
+        return self.cell_count + self.vertex_count + self.gate_count
 
     @cached_property
     def is_vertex(self) -> NDArray[np.bool_]:
-        """Whether each node is a lattice vertex."""
+        """Whether each node is a lattice vertex, or a gate."""
         node = np.arange(self.node_count)
         return read_only((node >= self.cell_count) & (node < self.first_destination))
 
@@ -108,6 +111,21 @@ class Network(Record):
         for nodes in (np.arange(self.cell_count), np.arange(self.first_destination, self.node_count)):
             node[self.site_of_node[nodes]] = nodes
         return read_only(node)
+
+    @cached_property
+    def gate_of_node(self) -> NDArray[np.int64]:
+        """The gate of each node, itself where it has none."""
+        gate, gates = np.arange(self.node_count), np.arange(self.cell_count + self.vertex_count, self.first_destination)
+        gate[self.node_of_site[self.site_of_node[gates]]] = gates
+        return read_only(gate)
+
+    @cached_property
+    def start_time(self) -> NDArray[np.int64]:
+        """For each node where a robot starts the step after which it may go, 0 for all others."""
+        scenario, time = self.scenario, np.zeros(self.node_count, dtype=np.int64)
+        node = self.node_of_site[scenario.area.layout.cell_to_site(scenario.robots)]
+        time[node[node >= 0]] = scenario.start_times[node >= 0]
+        return read_only(time)
 
 
 class _Prices(NamedTuple):
@@ -147,23 +165,28 @@ def make_network(n_scheme: NScheme, objective: str = "time") -> Network:
     is_cell = hops_of_site[sites] > 0
     cells, goals = sites[is_cell], sites[~is_cell]
     passages = make_passages(scenario, sites, prices.distance_of_site, prices.of_direction)
-    site_of_node = np.concatenate([cells, passages.vertices, goals])
-    first_goal = cells.size + passages.vertices.size
+    doors = np.flatnonzero(np.isin(cells, scenario.area.layout.cell_to_site(scenario.schedule.cells)))
+    site_of_node = np.concatenate([cells, passages.vertices, cells[doors], goals])
+    first_gate = cells.size + passages.vertices.size
+    first_goal = first_gate + doors.size
     node = np.full(scenario.area.layout.size, -1, dtype=np.int64)
     node[cells], node[goals] = np.arange(cells.size), np.arange(first_goal, site_of_node.size)
 
     hops = hops_of_site[site_of_node].astype(np.int64)
-    hops[cells.size : first_goal] = NOT_REACHED
+    hops[cells.size : first_gate] = NOT_REACHED
     np.minimum.at(hops, cells.size + passages.vertex, hops_of_site[passages.site] + 1)
     value = prices.distance_of_site[site_of_node].astype(np.int64)
-    value[cells.size : first_goal] = passages.distance
+    value[cells.size : first_gate] = passages.distance
+    hops[first_gate:first_goal] += 1
+    value[first_gate:first_goal] = value[doors]
 
-    arcs = _make_arcs(scenario, cells, node, passages, prices)
+    arcs = _past_gates(_make_arcs(scenario, cells, node, passages, prices), doors, first_gate)
     return Network(
         scenario,
         read_only(site_of_node.astype(np.int32)),
         cells.size,
         passages.vertices.size,
+        doors.size,
         prices.unit,
         prices.least // prices.unit,
         read_only(hops.astype(np.int32)),
@@ -199,6 +222,16 @@ def _make_arcs(
         (vertex, at, passages.leave, 1),
     ]
     return _Arcs(*np.concatenate([np.stack(np.broadcast_arrays(*columns), axis=1) for columns in arcs]).T)
+
+
+def _past_gates(arcs: _Arcs, doors: NDArray[np.int64], first_gate: int) -> _Arcs:
+    """Let arcs into cells that are doors, but for those of waiting, lead to their gates within the step, and on."""
+    gate = np.full(int(arcs.head.max(initial=-1)) + 1, -1, dtype=np.int64)
+    gate[doors] = np.arange(first_gate, first_gate + doors.size)
+    is_past = (gate[arcs.head] >= 0) & (arcs.tail != arcs.head)
+    onward = (gate[doors], doors, np.zeros_like(doors), np.ones_like(doors))
+    changed = (arcs.tail, np.where(is_past, gate[arcs.head], arcs.head), arcs.cost, arcs.steps - is_past)
+    return _Arcs(*(np.concatenate(both) for both in zip(changed, onward, strict=True)))
 
 
 def _make_tables(

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from trihex.kernels.codes import WAIT
 from trihex.optimum.flow import Flow
 from trihex.plans import Plan
 
@@ -32,14 +33,16 @@ def make_plan_of_flow(flow: Flow, robots: NDArray[np.int64], proves: bool) -> Pl
     length = np.zeros(scenario.robot_count, dtype=np.int64)
     length[robots] = arrival
     first_action = np.concatenate([[0], np.cumsum(length)])
-    actions = np.empty(first_action[-1], dtype=np.uint8)
+    actions = np.full(first_action[-1], WAIT, dtype=np.uint8)
+    start_times = scenario.start_times[robots]
     out = given(
         kernels.ActionsOut,
-        first=first_action[robots],
+        first=first_action[robots] + start_times,
         action=actions,
         site_of_node=network.site_of_node,
         offset=scenario.area.layout.offset_of_direction,
     )
     kernels.write_actions(paths, out)
     plan = Plan(scenario, actions, first_action, planner="optimal")
-    return replace(plan, optimal=proves and plan.total_time == flow.total)
+    least = flow.total + scenario.waiting_cost * int(start_times.sum())
+    return replace(plan, optimal=proves and plan.total_time == least)

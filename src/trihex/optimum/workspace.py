@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from trihex.errors import TooLargeError
 from trihex.memory import GIB, limit_or_default
+from trihex.optimum.doors import shut_doors
 from trihex.optimum.network import Network
 
 # Bytes for each node of a layer: flow and a bound.
@@ -36,6 +37,7 @@ class Workspace:
     def __init__(self, network: Network, cells: NDArray[np.int64], memory_limit: int | None) -> None:
         from trihex.kernels.signatures import given
         from trihex.optimum.kernels import residual as kernels
+        from trihex.optimum.kernels.flow_byte import START
 
         self.network, self.cells = network, cells
         self.limit = limit_or_default(memory_limit)
@@ -44,6 +46,10 @@ class Workspace:
         size = self.layers * network.node_count
         self.layer = layer_of(network)
         self.nodes = kernels.FlowNodes(np.zeros(size, np.uint8), np.zeros(size, np.int32))
+        if network.scenario.has_start_times:  # else nobody comes to where robots start
+            for nodes in (start_nodes(network, cells), held_nodes(network, cells)):
+                self.nodes.flow[nodes] = START << 4
+        shut_doors(network, self.nodes.flow, 0)
         self.search = kernels.FlowSearch(
             np.empty((_LOG, kernels.LOG_COLUMNS), dtype=np.int64),
             np.full(kernels.SEARCH_STATE_SIZE, kernels.NONE, dtype=np.int64),
@@ -69,6 +75,7 @@ class Workspace:
             self._check_memory(self.layers + more)
             added = more * self.network.node_count
             self.nodes = kernels.FlowNodes(*(longer(array, added) for array in self.nodes))
+            shut_doors(self.network, self.nodes.flow, self.layers)
             self.layers += more
         elif status == kernels.LEVELS_FULL:
             raise TooLargeError(
@@ -105,22 +112,46 @@ def check_memory(network: Network, cells: NDArray[np.int64], layers: int, need: 
 
 
 def start_nodes(network: Network, cells: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return the index of the node of each robot in step 0."""
-    return network.hops[cells].astype(np.int64) * network.node_count + cells
+    """Return the index of the node of each robot in step 0, or when it may go."""
+    return (network.hops[cells] + network.start_time[cells]) * network.node_count + cells
 
 
-def most_entries(network: Network) -> int:
+def held_nodes(network: Network, cells: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return the index of all nodes in which robots stand until they may go, but for those of `start_nodes`.
+
+    Nobody enters one of them, nor the node where the robot goes: each has the mark of a start, from which no flow can
+    be turned back.
+    """
+    times = network.start_time[cells]
+    step = np.arange(times.sum()) - np.repeat(np.cumsum(times) - times, times)
+    nodes: NDArray[np.int64] = (np.repeat(network.hops[cells], times) + step) * network.node_count
+    return nodes + np.repeat(cells, times)
+
+
+def most_entries(network: Network) -> float:
     """Return how many robots can arrive in a step, at most.
 
     Unlike `trihex.areas.entries_per_step` this counts a cell or vertex between two destinations for each of them: a
     little too many, which only decides how a plan is found. With the exact count some plans become others, as good.
     """
+    if network.scenario.has_flows:
+        return _entries_by_flows(network)
     return max(1, int(network.room.sum()))
+
+
+def _entries_by_flows(network: Network) -> float:
+    """Return how many robots can arrive in a step in the long run, where some destinations let them in by a flow."""
+    schedule, entries = network.scenario.schedule, network.room.astype(np.float64)
+    nodes = network.node_of_site[network.scenario.area.layout.cell_to_site(schedule.cells)]
+    is_goal = nodes >= network.first_destination
+    goals = nodes[is_goal] - network.first_destination
+    entries[goals] = np.minimum(entries[goals], (schedule.rate / schedule.period)[is_goal])
+    return float(max(entries.sum(), 1e-6))
 
 
 def least_layers(network: Network, cells: NDArray[np.int64]) -> int:
     """Return a lower bound on the last arrival: so many robots enter the destinations in a step and no more."""
-    hops = np.sort(network.hops[cells])
+    hops = np.sort(network.hops[cells] + network.start_time[cells])
     behind = np.arange(cells.size)[::-1]
     return int((hops + behind // most_entries(network)).max(initial=0)) + 1
 

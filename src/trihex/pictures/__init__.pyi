@@ -40,9 +40,13 @@ from .plotting import (
     draw_generation as draw_generation,
     draw_n_scheme as draw_n_scheme,
     draw_plan as draw_plan,
+    draw_prices as draw_prices,
 )
 from .preview import (
     preview_lines as preview_lines,
+)
+from .price_picture import (
+    picture_of_prices as picture_of_prices,
 )
 from .run_movie import (
     write_run_animation as write_run_animation,

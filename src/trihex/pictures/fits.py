@@ -38,5 +38,6 @@ def _panel(fit: Fit) -> NDArray[np.uint8]:
     goals = fit.destinations[~area.is_barrier(fit.destinations)]
     record = Scenario(area, goals, following=fit.following) if goals.size else area
     title = f"{tessellation.name} {tessellation.direction_count}, {fit.cell_size:g} m"
+    title += f", clock {fit.clocks[0]}" if len(fit.clocks) == 1 else ""
     title += ", following forbidden" if fit.following == "forbid" else ""
     return picture_of_area(record, width=_WIDTH, title=title, ground=area.ground).to_array()

@@ -20,8 +20,10 @@ from trihex.pictures.area_picture import picture_of_area
 from trihex.pictures.axes import PIXELS_PER_POINT, draw_legend, draw_scene, new_axes
 from trihex.pictures.picture import Picture
 from trihex.pictures.plan_picture import picture_of_plan
+from trihex.pictures.price_picture import picture_of_prices
 from trihex.pictures.scheme_picture import picture_of_d_scheme, picture_of_generation, picture_of_n_scheme
 from trihex.plans import Motion
+from trihex.prices import Prices
 
 _LONGER_SIDE, _MOST_STEP = 8.0, 0.9  # of a new figure and of an edge step, in inches
 
@@ -70,6 +72,13 @@ def draw_plan(plan: Motion, ax: Any = None, *, title: str | None = None, legend:
     """Draw the paths of a few robots, or how often many robots visit each cell; return the Axes."""
     check_type("plan", plan, Motion)
     return draw_on(lambda width: picture_of_plan(plan, width=width, title=title), plan.scenario.area, ax, legend)
+
+
+def draw_prices(prices: Prices, ax: Any = None, *, title: str | None = None, legend: bool = True) -> Any:
+    """Draw what each wall and each choke costs, and the best next door; return the Axes."""
+    check_type("prices", prices, Prices)
+    area = prices.plan.scenario.area
+    return draw_on(lambda width: picture_of_prices(prices, width=width, title=title), area, ax, legend)
 
 
 def draw_on(make: Callable[[int], Picture], area: Area, ax: Any, legend: bool) -> Any:

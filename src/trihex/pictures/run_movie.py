@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.errors import check_type
-from trihex.kernels.codes import LATE, WAIT
+from trihex.kernels.codes import LATE, UNDERWAY, WAIT
 from trihex.pictures import marks as make
 from trihex.pictures.film import MOST_SIDE, Film, Groups, Progress, step_words, write_film
 from trihex.pictures.legend import scale_bars
@@ -43,6 +43,41 @@ def write_run_animation(
     check_type("run", run, Run)
     film = RunFilm(run, max_frames, width, run_title(run) if title is None else title)
     write_film(film, path, frames_per_second, progress)
+
+
+class _Ways:
+    """Where robots of a run are from step to step: moves may last several.
+
+    Parameters
+    ----------
+    run : Run
+    """
+
+    def __init__(self, run: Run) -> None:
+        self.run, self.step = run, 0
+        self.cells = self.later = run.last_cell_of_robot.copy()
+        self.begun = np.zeros(run.robots.size, dtype=np.int64)
+        self.lasts = np.ones(run.robots.size, dtype=np.int64)
+
+    def go_to(self, step: int, cells: NDArray[np.int64]) -> None:
+        """Go on to the next step, after which robots are in `cells`, and let them begin what they do then."""
+        run, layout = self.run, self.run.scenario.area.layout
+        self.step, self.cells = step, np.where(cells >= 0, cells, run.last_cell_of_robot)
+        is_under_way = (self.begun + self.lasts > step) & (cells >= 0)
+        self.later = np.where(is_under_way, self.later, self.cells)
+        if step == run.steps:
+            return
+        action = run.actions[step]
+        begins = np.flatnonzero((action < UNDERWAY) & (cells >= 0))
+        site = layout.cell_to_site(cells[begins])
+        target = site + layout.offset_of_direction[site & 1, action[begins]]
+        self.later[begins], self.begun[begins] = layout.site_to_cell(target), step
+        self.lasts[begins] = run.scenario.duration_of_direction[action[begins]]
+
+    def places(self, share: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return where robots are, in edge steps, when a share of the next step has passed."""
+        done = np.where(self.later == self.cells, 0.0, (self.step + share - self.begun) / self.lasts)
+        return places_between(self.run.scenario.area, self.cells, self.later, done)
 
 
 @dataclass(frozen=True)
@@ -101,20 +136,21 @@ class RunFilm(Film):
         run = self.run
         cells, worlds = list(run.cells_by_step()), run.worlds()
         world = (run.scenario.area.barriers.copy(), run.scenario.destinations)
-        shown, background = self.scene, self.background
+        shown, background, ways = self.scene, self.background, _Ways(run)
         for step in range(run.steps + 1):
             if step:
                 barriers, destinations = next(worlds)
                 world = (barriers, destinations)
+            ways.go_to(step, cells[step])
             if step % self.pace.every and step != run.steps:
                 continue
             classes = classes_of(run, step, *world)
             if not np.array_equal(classes, shown.colour_of_cell):
                 shown = replace(self.scene, colour_of_cell=classes)
                 background = paint(shown, self.sheet)
-            later = cells[min(step + 1, run.steps)]
             for part in range(self.pace.substeps if step < run.steps else 1):
-                yield self._frame(background, step, cells[step], later, part / self.pace.substeps, world[1])
+                places = ways.places(part / self.pace.substeps)
+                yield self._frame(background, step, cells[step], places, world[1])
 
     def _groups(self, step: int, cells: NDArray[np.int64]) -> Groups:
         """Return the robots to be seen after `step` by colour."""
@@ -135,23 +171,17 @@ class RunFilm(Film):
         background: NDArray[np.uint8],
         step: int,
         cells: NDArray[np.int64],
-        later: NDArray[np.int64],
-        share: float,
+        places: tuple[NDArray[np.float64], NDArray[np.float64]],
         destinations: NDArray[np.int64],
     ) -> NDArray[np.uint8]:
         run, area, scale = self.run, self.run.scenario.area, self.scene.scale
-        at = np.where(cells >= 0, cells, run.last_cell_of_robot)
-        x, y = centres_of(area, at)
-        if share:
-            next_cells = np.where(later >= 0, later, np.where(cells >= 0, run.last_cell_of_robot, at))
-            x, y = places_between(area, at, next_cells, share)
         frame = background.copy()
         marks: tuple[Mark, ...] = ()
         if scale < make.LETTERS_FROM and destinations.size:  # cells are too small to be found by their colour alone
             ends = centres_of(area, destinations)
             marks = (Discs(*ends, 0.65, PAGE, 5.0), Discs(*ends, 0.5, DESTINATION, 3.5))
         paint_disc_marks(frame, replace(self.scene, marks=marks), self.sheet)
-        x, y = self.on_page(x, y)
+        x, y = self.on_page(*places)
         for robots, colour in self._groups(step, cells):
             self.paint_robots(frame, x[robots], y[robots], colour)
         if not self.clock:

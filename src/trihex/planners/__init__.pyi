@@ -15,5 +15,6 @@ from .registry import (
     uses_of as uses_of,
 )
 from .straighten import (
+    check_straightenable as check_straightenable,
     straighten as straighten,
 )

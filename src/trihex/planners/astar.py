@@ -19,7 +19,8 @@ def plan_astar(n_scheme: NScheme, *, memory_limit: int | None = None, progress: 
     before it, which it leaves as they are. They may lead over the start of a robot that is planned later; if that one
     finds no way out in time, all is planned again, and starts of later robots are taboo. Then nobody ever stands in
     its way before it is its turn, nor on any of its shortest ways, because it is nearer than those that come after it;
-    so in the worst case it waits until all before it have arrived, and there is always a plan.
+    so in the worst case it waits until all before it have arrived, and there is always a plan. Nobody is
+    led where a robot stands until its start time.
 
     Parameters
     ----------
@@ -40,12 +41,12 @@ def plan_astar(n_scheme: NScheme, *, memory_limit: int | None = None, progress: 
     distance = n_scheme.distance_of_site[site]
     going = np.flatnonzero((distance != NOT_REACHED) & (distance != 0))
     going = going[np.argsort(distance[going], kind="stable")]
-    ways = None
+    ways, start_times = None, scenario.start_times[going]
     for respects_starts in (False, True):
         reservations = Reservations(n_scheme, memory_limit)
         if going.size:
             reservations.make_room(reservations.least_steps(int(distance[going[-1]])) + 1)
-        ways = _find_ways(reservations, site[going], respects_starts, progress)
+        ways = _find_ways(reservations, site[going], start_times, respects_starts, progress)
         if ways is not None:
             break
     if ways is None:
@@ -59,19 +60,25 @@ def plan_astar(n_scheme: NScheme, *, memory_limit: int | None = None, progress: 
 
 
 def _find_ways(
-    reservations: Reservations, starts: NDArray[np.int32], respects_starts: bool, progress: Progress | None
+    reservations: Reservations,
+    starts: NDArray[np.int32],
+    start_times: NDArray[np.int64],
+    respects_starts: bool,
+    progress: Progress | None,
 ) -> list[NDArray[np.uint8]] | None:
     """Return the actions of each robot, or None if one finds no way."""
     is_shut = np.zeros(reservations.distance.size if respects_starts else 0, dtype=bool)
     if respects_starts:
         is_shut[starts] = True
+    for robot in np.flatnonzero(start_times).tolist():
+        reservations.hold(starts[robot], start_times[robot])
     ways = []
     if progress is not None:
         progress(0, starts.size)
-    for count, start in enumerate(starts.tolist()):
+    for count, (start, start_time) in enumerate(zip(starts.tolist(), start_times.tolist(), strict=True)):
         if respects_starts:
             is_shut[start] = False
-        way = reservations.find_way(start, is_shut)
+        way = reservations.find_way(start, start_time, is_shut)
         if way is None:
             return None
         reservations.reserve(start, way)

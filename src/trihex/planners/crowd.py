@@ -31,7 +31,7 @@ class Crowd:
     #: Number in the scenario, and start, of each robot; entry 0 is unused.
     robot: NDArray[np.int32]
     site_of_robot: NDArray[np.int32]
-    #: The distances of all starts together: no plan takes less.
+    #: The distances of all starts together, and the waits until robots may begin to move: no plan takes less.
     total_distance: int
     #: Each region's part of `listed`: the robots that have not arrived.
     first_of_region: NDArray[np.int64]
@@ -49,6 +49,11 @@ class Crowd:
         #: robots it was last entered.
         self.passed = np.zeros(layout.size if self.scenario.forbids_crossing else 1, dtype=np.int64)
         self.entered_step, self.entered_count = np.zeros(enters, dtype=np.int32), np.zeros(enters, dtype=np.int32)
+
+    @property
+    def start_time(self) -> NDArray[np.int64]:
+        """After how many steps each robot may begin to move."""
+        return np.append(0, self.scenario.start_times[self.robot[1:]])
 
     @property
     def going(self) -> int:
@@ -123,7 +128,7 @@ def make_crowd(n_scheme: NScheme, find_regions: Callable[[NDArray[np.int32]], ND
         scenario,
         np.append(0, robot).astype(np.int32),
         np.append(0, site[robot]).astype(np.int32),
-        int(distance[robot].sum(dtype=np.int64)),
+        int(distance[robot].sum(dtype=np.int64)) + scenario.waiting_cost * int(scenario.start_times[robot].sum()),
         np.cumsum(count) - count,
         count.astype(np.int64),
         np.arange(1, robot.size + 1, dtype=np.int32),

@@ -71,6 +71,10 @@ def _run(n_scheme: NScheme, rule: str, keeps_actions: bool, progress: Progress |
             f"rule must not be 'paper' where clock is {scenario.clock!r} and following {scenario.following!r}: "
             "it counts who is in a cell in the same step; 'queue' counts lines"
         )
+    if rule == "paper" and scenario.has_start_times:
+        raise PlanError("rule must not be 'paper' where there are start_times: in the paper all robots begin at once")
+    if rule == "paper" and scenario.has_flows:
+        raise PlanError("rule must not be 'paper' where doors have a flow: in the paper none is ever shut")
     if rule == "lanes":
         return _simulated(make_lanes(n_scheme).d_scheme, "aside", keeps_actions, progress)
     d_scheme = make_d_scheme(n_scheme)
@@ -87,7 +91,7 @@ def _run(n_scheme: NScheme, rule: str, keeps_actions: bool, progress: Progress |
         best = _better(best, _simulated(lanes.d_scheme, "aside", keeps_actions, progress, best.total_time + paid))
         has_lanes = steps < _LARGE or best.total_time > _ENOUGH * distances
     best = _better(best, run_greedy(n_scheme, keeps_actions, progress, best.total_time))
-    if steps <= _FEW and not scenario.is_stepwise:  # small crowds gain 1 to 2 %
+    if steps <= _FEW and not scenario.moves_by_steps:  # small crowds gain 1 to 2 %
         best = _better(best, _simulated(d_scheme, "queue", keeps_actions, progress, best.total_time))
     if has_lanes:
         lanes = make_lanes(n_scheme, most_visits=most_visits)
@@ -130,7 +134,7 @@ def _simulated(
         # At w_t robots would run from line to line: with w_t three moves, plans took 4.5 times as long as greedy's.
         price=scenario.waiting_cost if is_literal else price_of_waiting(scenario),
     )
-    if not scenario.is_stepwise:
+    if not scenario.moves_by_steps:
         return simulate(d_scheme, weighing, keeps_actions, progress, limit)
     slots = Slots(d_scheme, is_literal)
     crowd = make_crowd(d_scheme.n_scheme, slots.find_regions)

@@ -44,7 +44,7 @@ def run_greedy(
     from trihex.planners.kernels.cells import DESTINATION, OCCUPIED, Cells, find_regions
 
     scenario = n_scheme.scenario
-    if not scenario.is_stepwise:
+    if not scenario.moves_by_steps:
         return descend_timely(make_d_scheme(n_scheme), keeps_actions, progress, limit)
     layout = scenario.area.layout
     destinations = layout.cell_to_site(scenario.destinations)

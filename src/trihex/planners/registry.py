@@ -55,14 +55,16 @@ def planner_named(name: str) -> Planner:
 def uses_of(name: str, scenario: Scenario) -> list[str]:
     """Return what a planner needs to be compiled for a scenario, as keys of `trihex.kernels.needs.KERNELS_OF`.
 
-    Where time is not in steps alone others go from tick to tick; what `optimal` does where robots crowd depends on
-    whether all steps cost the same.
+    Where time is not in steps alone, robots have start times or doors a flow, others go from tick to tick; what
+    `optimal` does where robots crowd depends on whether all steps cost the same.
     """
     if name != "optimal":
-        return [use_of(name, scenario.is_stepwise)]
+        return [use_of(name, scenario.moves_by_steps)]
     if scenario.waiting_cost == 0:
-        return [name, "greedy"]
+        return [name, use_of("greedy", scenario.moves_by_steps)]
     is_equal = (scenario.area.tessellation.cost_of_direction == scenario.waiting_cost).all()
+    if is_equal and not scenario.moves_by_steps:
+        return [name, "optimal_earliest", use_of("fcost", is_stepwise=False)]
     return [name, "optimal_earliest" if is_equal else "optimal_crowd"]
 
 

@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 
 from trihex.errors import TooLargeError
 from trihex.fields import NScheme
-from trihex.kernels.codes import NOT_REACHED
+from trihex.kernels.codes import NOT_REACHED, WAIT
 from trihex.memory import GIB, limit_or_default
+from trihex.planners.estimates import Estimates
 
 _BUDGET = 200_000  # nodes looked at in one call of a kernel
 
@@ -52,7 +53,8 @@ class Reservations:
             least_cost=min(scenario.waiting_cost, int((cost // duration).min())),
             most_cost=(cost // duration).max(),
         )
-        ends = sites.size if scenario.entry_limit else 0
+        self._has_doors = scenario.has_flows
+        ends = sites.size if scenario.entry_limit or self._has_doors else 0
         number = np.zeros(layout.size if ends else 0, dtype=np.int32)
         if ends:
             number[sites] = np.arange(ends)
@@ -66,7 +68,10 @@ class Reservations:
             number=number,
             ends=ends,
             capacity=scenario.entry_limit,
+            let_in=np.zeros(0, dtype=np.int32),
+            doors=scenario.schedule.for_kernels(layout),
         )
+        self._estimates = Estimates(self._terrain)
         self._state = np.zeros(astar.STATE_SIZE, dtype=np.int64)
         self._make_lists(1 << 12)
 
@@ -106,13 +111,11 @@ class Reservations:
         TooLargeError
             If they would take more than the limit.
         """
-        per_step, size, ends = max(1, self._reserved.per_tick), self.distance.size, self._reserved.ends
-        have = self._reserved.rows // per_step
+        size, ends, have = self.distance.size, self._reserved.ends, self._steps
         if steps <= have:
             return
         steps = max(steps, have + have // 2)
-        rows = steps * per_step
-        need = rows * (size + 4 * ends) + steps * size * self._forbids
+        rows, need = steps * max(1, self._reserved.per_tick), self._bytes_of(steps)
         if need > self._limit:
             raise TooLargeError(
                 f"reservations would take {need / GIB:.1f} GiB ({steps} steps of {size} cells), more than "
@@ -123,25 +126,48 @@ class Reservations:
             site=_grown(self._reserved.site, rows * size),
             vertex=_grown(self._reserved.vertex, steps * size * self._forbids),
             entries=_grown(self._reserved.entries, rows * ends),
+            let_in=_grown(self._reserved.let_in, steps * ends * self._has_doors),
         )
 
-    def find_way(self, start: int, is_shut: NDArray[np.bool_]) -> NDArray[np.uint8] | None:
-        """Return the actions of the cheapest way from a site, or None if there is none.
+    @property
+    def _steps(self) -> int:
+        """How many steps the tables have rows for."""
+        return int(self._reserved.rows // max(1, self._reserved.per_tick))
+
+    def _bytes_of(self, steps: int) -> int:
+        """Return what tables for so many steps take."""
+        size, ends = self.distance.size, self._reserved.ends
+        rows = steps * max(1, self._reserved.per_tick)
+        return int(rows * (size + 4 * ends) + steps * (size * self._forbids + 4 * ends * self._has_doors))
+
+    def hold(self, start: int, start_time: int) -> None:
+        """Reserve the site of a robot that stands there until it may begin to move."""
+        from trihex.planners.kernels import reservations
+
+        self.make_room(start_time + 1)
+        # Where moves last it may begin to go in the first half tick that is no more reserved.
+        last = start_time * self._reserved.per_tick - 1 if self._reserved.per_tick else start_time
+        reservations.hold(start, last, self._reserved, self.distance.size)
+
+    def find_way(self, start: int, start_time: int, is_shut: NDArray[np.bool_]) -> NDArray[np.uint8] | None:
+        """Return the actions of the cheapest way from a site, all that is waited first, or None if there is none.
 
         ``is_shut[site]`` bars sites, none if it is empty.
         """
         from trihex.planners.kernels import astar
 
+        self._estimates.make_room(self._steps, self._limit - self._bytes_of(self._steps))
         status = astar.BUDGET_SPENT
         while status in (astar.BUDGET_SPENT, astar.LIST_FULL):
             if status == astar.LIST_FULL:
                 self._make_lists(2 * self._nodes.site.size)
-            space = (self._nodes, self._heap, self._state)
-            status = astar.search(start, self._terrain, self._reserved, is_shut, *space, _BUDGET)
+            space = (self._estimates.tables, self._nodes, self._heap, self._state)
+            status = astar.search(start, start_time, self._terrain, self._reserved, is_shut, *space, _BUDGET)
         if status == astar.NOTHING:
             return None
-        actions = np.empty(int(self._nodes.step[self._state[astar.GOAL]]), dtype=np.uint8)
-        return actions[actions.size - astar.write_way(self._nodes, self._state, actions) :].copy()
+        self._estimates.learn(self._nodes, self._state, for_good=is_shut.size == 0)
+        actions = np.full(int(self._nodes.step[self._state[astar.GOAL]]), WAIT, dtype=np.uint8)
+        return actions[actions.size - astar.write_way(self._nodes, self._state, actions) - start_time :].copy()
 
     def reserve(self, start: int, actions: NDArray[np.uint8]) -> None:
         """Reserve a way; where moves last or nobody follows at once, the one that was found last."""
@@ -156,15 +182,18 @@ class Reservations:
         """Free a way that was reserved."""
         from trihex.planners.kernels import reservations
 
+        if self._estimates.tables.rows:
+            self._estimates.forget()
         reservations.unreserve(start, actions, self._terrain, self._reserved)
 
     def straighten_way(
-        self, start: int, most: int, turn: NDArray[np.int32], layers: Any, actions: NDArray[np.uint8]
+        self, start: int, start_time: int, most: int, turn: NDArray[np.int32], layers: Any, actions: NDArray[np.uint8]
     ) -> int:
         """Fill `actions` with the straightest of the cheapest ways of as many; see the kernel."""
         from trihex.planners.kernels import straight
 
-        return int(straight.straighten_way(start, most, self._terrain, self._reserved, turn, layers, actions))
+        space = (self._terrain, self._reserved, turn, layers)
+        return int(straight.straighten_way(start, start_time, most, *space, actions))
 
 
 def _grown(array: NDArray[Any], size: int) -> NDArray[Any]:

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Tessellation
+from trihex.areas import Scenario, Tessellation
 from trihex.errors import PlanError, TooLargeError, check_type, check_whole
 from trihex.fields import make_n_scheme
 from trihex.planners.reservations import Reservations
@@ -60,12 +60,7 @@ def straighten(
     """
     check_type("plan", plan, Plan)
     check_whole("rounds", rounds, 0, None, PlanError)
-    if not plan.scenario.is_stepwise:
-        clock, following = plan.scenario.clock, plan.scenario.following
-        raise PlanError(
-            "plan must have moves of one step, and robots that may follow at once, to be straightened, not "
-            f"clock {clock!r} and following {following!r}"
-        )
+    check_straightenable(plan.scenario)
     if plan.jumps.size:
         raise PlanError("plan must keep the rules to be straightened: a robot jumps")
     ways = _Ways(plan, memory_limit)
@@ -80,6 +75,18 @@ def straighten(
         if not changed:
             break
     return ways.as_plan()
+
+
+def check_straightenable(scenario: Scenario) -> None:
+    """Raise unless plans of the scenario can be straightened: PlanError for its rules, TooLargeError for its area."""
+    if not scenario.is_stepwise:
+        raise PlanError(
+            "plan must have moves of one step, and robots that may follow at once, to be straightened, not "
+            f"clock {scenario.clock!r} and following {scenario.following!r}"
+        )
+    headings = len(_turn_of_headings(scenario.area.tessellation))
+    if scenario.area.layout.size * headings >= 2**31:
+        raise TooLargeError(f"to straighten a plan an area may have some {2**31 // headings} cells at most")
 
 
 class _Ways:
@@ -108,8 +115,6 @@ class _Ways:
         from trihex.planners.kernels.straight import Layers
 
         states = self.plan.scenario.area.layout.size * len(self._turn)
-        if states >= 2**31:
-            raise TooLargeError(f"to straighten a plan an area may have some {2**31 // len(self._turn)} cells at most")
         self._layers = given(
             Layers,
             state=np.empty(size, dtype=np.int32),
@@ -129,7 +134,8 @@ class _Ways:
         reservations.unreserve(start, way)
         found, key = np.empty_like(way), kernels.LIST_FULL
         while key == kernels.LIST_FULL:
-            key = reservations.straighten_way(start, int(self._times[robot]), self._turn, self._layers, found)
+            limits = (int(self.plan.scenario.start_times[robot]), int(self._times[robot]))
+            key = reservations.straighten_way(start, *limits, self._turn, self._layers, found)
             if key == kernels.LIST_FULL:
                 if 2 * self._layers.state.size > _MOST_STATES:
                     break

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.fields import DScheme
+from trihex.kernels.codes import WAIT
 from trihex.planners.crowd import Crowd, make_crowd
 from trihex.planners.recording import Progress, Recording
 from trihex.planners.slots import Slots
@@ -19,7 +20,9 @@ class TickRecording(Recording):
 
     def __init__(self, crowd: Crowd, keeps_actions: bool) -> None:
         super().__init__(crowd, keeps_actions)
-        self._count = np.zeros(crowd.robot.size, dtype=np.int64)
+        # Until they may begin to move robots wait; those waits are in no row.
+        self._count = crowd.start_time
+        self._time = crowd.start_time * crowd.scenario.waiting_cost
 
     def _steps_of_block(self, first_step: int) -> int:
         from trihex.planners.kernels.claims import WINDOW
@@ -49,7 +52,7 @@ class TickRecording(Recording):
         from trihex.planners.kernels.tick_rows import write_back
 
         first_action = np.concatenate([[0], np.cumsum(self._by_robot(self._count))])
-        actions = np.empty(first_action[-1], dtype=np.uint8)
+        actions = np.full(first_action[-1], WAIT, dtype=np.uint8)
         end = np.append(first_action[1:], 0)[self.crowd.robot]
         while self._rows:  # the last first, so that what is written is freed
             write_back(*self._rows.pop(), end, actions)
@@ -91,6 +94,7 @@ def _make_stage(crowd: Crowd, slots: Slots) -> Any:
     scenario, size = crowd.scenario, crowd.scenario.area.layout.size
     duration = scenario.duration_of_direction
     limit = scenario.entry_limit if scenario.entry_limit < duration.size else 0  # no more than that enter at a time
+    counts = scenario.destinations.size * int(kernels.AHEAD) if scenario.has_flows else 0
     clock = given(
         kernels.Clock,
         duration=duration,
@@ -104,16 +108,20 @@ def _make_stage(crowd: Crowd, slots: Slots) -> Any:
         left_until=np.zeros(size, dtype=np.int32),
         passed=crowd.passed,
         entered_until=np.zeros(max(1, scenario.destinations.size * limit), dtype=np.int32),
+        let_in=np.zeros(counts, dtype=np.int32),
+        let_in_at=np.zeros(counts, dtype=np.int32),
     )
-    return kernels.Stage(clock, slots.ways._replace(entry_limit=limit), *slots.for_kernels(), claims)
+    doors = scenario.schedule.for_kernels(scenario.area.layout)
+    return kernels.Stage(clock, slots.ways._replace(entry_limit=limit), *slots.for_kernels(), claims, doors)
 
 
 def _make_agenda(crowd: Crowd) -> Any:
-    """Return `Agenda` as kernels know it: everybody is asked at tick 0."""
+    """Return `Agenda` as kernels know it: everybody is asked as soon as it may begin to move."""
     from trihex.kernels.signatures import given
     from trihex.planners.kernels.timely import Agenda
 
-    due, done, row, came_from, waiting = np.zeros((5, crowd.robot.size), dtype=np.int32)
+    row, came_from, waiting = np.zeros((3, crowd.robot.size), dtype=np.int32)
+    due, done = (crowd.start_time.astype(np.int32) for _ in range(2))
     captain, asked = np.zeros(crowd.count_of_region.size, dtype=np.int32), np.empty(0, dtype=np.int64)
     return given(
         Agenda,

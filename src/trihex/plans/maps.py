@@ -11,15 +11,17 @@ from trihex.plans.rows import rows_of_motion
 from trihex.record import read_only
 
 
-def make_waiting_map(plan: Motion) -> NDArray[np.int64]:
+def make_waiting_map(plan: Motion, *, before_start: bool = False) -> NDArray[np.int64]:
     """Return how many steps (ticks) robots lost in each cell, shape (height, width): those in which they stood there.
 
-    Robots that cannot arrive stand for ever; they are left out. In a place in metres `step_seconds` of the report makes
-    seconds of them.
+    What they wait until their start times is no loss; with `before_start` it is that, and nothing else, that is
+    counted. Robots that cannot arrive stand for ever; they are left out. In a place in metres `step_seconds` of the
+    report makes seconds of them.
 
     Parameters
     ----------
     plan : Plan or Run
+    before_start : bool
 
     Examples
     --------
@@ -29,10 +31,13 @@ def make_waiting_map(plan: Motion) -> NDArray[np.int64]:
     [[0, 0, 0]]
     """
     check_type("plan", plan, Motion)
-    first_row, _, cell = rows_of_motion(plan)
+    first_row, step, cell = rows_of_motion(plan)
     stood = np.append(False, cell[1:] == cell[:-1])[: cell.size]
     stood[first_row[:-1]] = False
     stood &= np.repeat(plan.ended >= 0, np.diff(first_row))
+    start_times = np.zeros(first_row.size - 1, dtype=np.int64)  # of those that joined a run, too
+    start_times[: plan.scenario.robot_count] = plan.scenario.start_times
+    stood &= (step <= np.repeat(start_times, np.diff(first_row))) == before_start
     return _by_cell(plan, cell[stood])
 
 

@@ -19,7 +19,7 @@ from trihex.errors import check_type
 from trihex.judging import Conflict, is_reachable
 from trihex.kernels.codes import UNDERWAY
 from trihex.record import Record, counted
-from trihex.running.owning import judge_arrivals, judge_events, judge_owners, moves_of
+from trihex.running.owning import judge_arrivals, judge_doors, judge_events, judge_owners, moves_of
 from trihex.running.run import ARRIVED, BROKEN, GOING, LEFT, Run
 
 Ints = NDArray[np.int64]
@@ -74,11 +74,16 @@ def audit_run(run: Run, limit: int = 100) -> RunAudit:
     """
     check_type("run", run, Run)
     if run.scenario.is_stepwise:
-        found = [*_events(run), *(c for step in _steps(run) for judge in _JUDGES for c in judge(run, step))]
+        doors = judge_doors(run, moves_of(run)[0]) if run.scenario.has_flows else ()
+        found = [*_events(run), *doors, *(c for step in _steps(run) for judge in _JUDGES for c in judge(run, step))]
     else:
         moves, found = moves_of(run)
         found += [conflict for step in _steps(run) for conflict in _judge_moves(run, step)]
-        found += [conflict for judge in (judge_owners, judge_arrivals, judge_events) for conflict in judge(run, moves)]
+        found += [
+            conflict
+            for judge in (judge_owners, judge_doors, judge_arrivals, judge_events)
+            for conflict in judge(run, moves)
+        ]
     found += _ends(run)
     found.sort(key=lambda conflict: conflict.step)
     return RunAudit(run, tuple(found[:limit]), len(found))
@@ -118,6 +123,10 @@ def _judge_moves(run: Run, step: _Step) -> Iterator[Conflict]:
     if run.scenario.corners != "allow":
         for i in _closed_corners(run, step).tolist():
             yield _conflict(area, "corner", step, [i], "robot {0} moves from {a} to {b} round a corner that is closed")
+    moves = np.flatnonzero((step.there != step.here) & (step.robots < run.scenario.robot_count))
+    for i in moves[run.scenario.start_times[step.robots[moves]] >= step.number].tolist():
+        start = run.scenario.start_times[step.robots[i]]
+        yield _conflict(area, "start", step, [i], f"robot {{0}} leaves {{a}} before its start time, {start}")
     late: set[int] = set()
     for one in run.occurrences:
         event = one.event
@@ -170,7 +179,7 @@ def _judge_meetings(run: Run, step: _Step) -> Iterator[Conflict]:
 
 def _judge_arrivals(run: Run, step: _Step) -> Iterator[Conflict]:
     """Too many robots in a destination, robots that stay on one, and robots that vanish elsewhere."""
-    area, capacity = run.scenario.area, run.scenario.destination_capacity
+    area, capacity = run.scenario.area, run.scenario.entry_limit
     enters = np.flatnonzero(np.isin(step.there, step.destinations))
     for i in enters[run.ended[step.robots[enters]] != step.number].tolist():
         yield _conflict(area, "arrival", step, [i], "robot {0} acts on after it has entered destination {b}")
@@ -179,7 +188,7 @@ def _judge_arrivals(run: Run, step: _Step) -> Iterator[Conflict]:
         if not _opens(run, step.number + 1, int(step.there[i])):
             text = "robot {0} is said to arrive, but is in {b}, which is no destination"
             yield _conflict(area, "arrival", step, [i], text)
-    if capacity is not None:
+    if capacity:
         cells, counts = np.unique(step.there[enters], return_counts=True)
         for cell in cells[counts > capacity].tolist():
             many = enters[step.there[enters] == cell][capacity:].tolist()
@@ -232,7 +241,7 @@ def _ends(run: Run) -> Iterator[Conflict]:
     going = np.flatnonzero((run.state_of_robot == GOING) & (cells >= 0) & (cells < area.cell_count))
     going = going[~barriers.flat[cells[going]]]  # who left the area or stands on a barrier is charged with that
     if going.size and destinations.size:
-        last = replace(run.scenario, area=replace(area, barriers=barriers), destinations=destinations, robots=going[:0])
+        last = replace(run.scenario.with_robots(()), area=replace(area, barriers=barriers), destinations=destinations)
         for robot in going[is_reachable(last, cells[going])].tolist():
             cell = int(cells[robot])
             text = (

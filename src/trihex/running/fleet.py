@@ -55,6 +55,7 @@ class Fleet:
         self.came_from = np.full(self.site.size, -1, dtype=np.int32)
         self.state = np.zeros(self.site.size, dtype=np.uint8)
         self.tick, self.claims = 0, Claims(scenario)
+        self._start_times = scenario.start_times
         self._set_at_centres()
         self.occupied = np.zeros(self.layout.size, dtype=np.uint8)
         self.occupied[self.site] = 1
@@ -78,6 +79,13 @@ class Fleet:
     def cell_of_robot(self) -> NDArray[np.int64]:
         """Number of the cell of each robot, -1 for those that are not in the area any more."""
         return np.where(self.is_going | (self.state == BROKEN), self.layout.site_to_cell(self.site), -1)
+
+    @property
+    def start_times_left(self) -> NDArray[np.int64]:
+        """After how many steps from now each robot may begin to move; 0 for those that joined."""
+        left = np.zeros(self.size, dtype=np.int64)
+        left[: self._start_times.size] = np.maximum(self._start_times - self.tick, 0)
+        return left
 
     def check_going(self, robot: int) -> None:
         """Raise ExecutionError unless there is such a robot and it is on its way."""

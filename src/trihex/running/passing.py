@@ -31,7 +31,8 @@ class PassingOrder(Record):
     - a destination of capacity c has taken the robot that enters it c places earlier, in an earlier step.
 
     Everything that must come first is earlier in the plan, or in the same step of it. So whoever is first in the plan
-    of those not done can always move: no delay makes robots collide, or wait for each other for ever.
+    of those not done can always move: no delay makes robots collide, or wait for each other for ever. Nobody moves
+    before its start time.
 
     Where moves last several ticks or nobody follows before a cell is left, a robot begins its next move when the move
     that leaves the cell, that which passes the vertex and that which enters the same place of the destination before it
@@ -184,6 +185,7 @@ class Follower:
 
         is_late, moves = np.zeros(self._at.size, dtype=bool), np.zeros(self._at.size, dtype=bool)
         is_late[np.fromiter(late, dtype=np.int64)] = True
+        is_late |= self.order.plan.scenario.start_times > self._tick
         now = given(Progress, tick=self._tick, at=self._at, due=self._due, is_late=is_late)
         choose(self._precedence, now, self._stack, moves)
         action = np.where(self._due > self._tick, np.uint8(UNDERWAY), np.uint8(WAIT))
@@ -211,7 +213,9 @@ def make_passing_order(plan: Plan) -> PassingOrder:
     check_type("plan", plan, Plan)
     if (plan.actions == JUMP).any():
         raise PlanError("a plan in which robots jump has no order of passing")
-    scenario, capacity = plan.scenario, plan.scenario.destination_capacity
+    scenario, capacity = plan.scenario, plan.scenario.entry_limit
+    if scenario.has_flows:
+        raise PlanError("an order of passing tells who goes first, not when: doors must have no flow")
     first_move, begin, there, passed = _moves_of(plan)
     lasts = scenario.duration_of_direction[plan.actions[plan.actions != WAIT]].astype(np.int64)
     # Half ticks: from when to when a move passes its vertex, and its robot owns its target and then the cell it leaves.
@@ -220,7 +224,7 @@ def make_passing_order(plan: Plan) -> PassingOrder:
     is_entry = np.isin(there, scenario.area.layout.cell_to_site(scenario.destinations))
     vertex, entry = np.full(begin.size, -1, dtype=np.int64), np.full(begin.size, -1, dtype=np.int64)
     _chain(np.flatnonzero(passed >= 0), passed, 2 * begin, end, vertex)
-    if capacity is not None:
+    if capacity:
         _share(np.flatnonzero(is_entry), there, (middle, end), capacity, entry)
     leaves = _leaves_before(plan, first_move, (middle, end - follows * lasts), there, is_entry)
     _check_rings(leaves, middle, lasts)

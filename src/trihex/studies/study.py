@@ -18,7 +18,7 @@ from trihex.formats import complaint, read_toml
 from trihex.formats.schema import check_document
 from trihex.planners import planner_from
 from trihex.record import Record, counted
-from trihex.studies.case import read_area_of, try_planner
+from trihex.studies.case import least_rules, read_area_of, try_planner
 from trihex.studies.grid import Grid, variants_of
 from trihex.studies.row import hash_of_scenario, versions
 from trihex.studies.schema import AreaAxis, PlannerAxis, StudyTable, bytes_of
@@ -145,7 +145,7 @@ def _study_of(document: dict[str, Any], check: _Check) -> tuple[Study | None, li
     axes |= {name: _entries(getattr(table, axis)) for name, axis in AXES.items() if name not in ("seed", "planner")}
     axes |= {"seed": table.seeds, "planner": [planner for _, planner in planners]}
     for i, area in enumerate(table.areas):
-        check.area(f"areas.{i}", area, axes["tessellation"][0], axes["rules"][0].get("following"))
+        check.area(f"areas.{i}", area, axes["tessellation"][0], least_rules(axes["rules"][0]))
     for i, robots in enumerate(table.robots):
         for file in robots.file or []:
             check.file(f"robots.{i}.file", file)
@@ -219,7 +219,7 @@ class _Check:
         """Check that a planner exists and takes its options, on one robot: any planner tells at once."""
         self._attempt(key, planner, lambda: try_planner(planner))
 
-    def area(self, key: str, area: AreaAxis, tessellation: dict[str, Any], following: str | None) -> None:
+    def area(self, key: str, area: AreaAxis, tessellation: dict[str, Any], least: dict[str, str]) -> None:
         """Check one entry of the areas."""
         given = area.model_dump(exclude_none=True)
         if area.generator is not None:
@@ -234,7 +234,7 @@ class _Check:
             self.file(f"{key}.path", file)
         if not self.mistakes:
             for entry in variants_of(given):
-                self._attempt(key, entry, lambda e=entry: read_area_of(e, tessellation, 0, self.folder, following))  # type: ignore[misc]
+                self._attempt(key, entry, lambda e=entry: read_area_of(e, tessellation, 0, self.folder, least))  # type: ignore[misc]
 
 
 def _check_generator(generator: str, given: dict[str, Any]) -> None:

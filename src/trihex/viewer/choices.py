@@ -19,6 +19,7 @@ from trihex.planners import PLANNERS, options_of
 from trihex.viewer.exports import EXPORTS
 from trihex.viewer.folder import SUFFIXES
 from trihex.viewer.hints import planner_hints
+from trihex.viewer.layers import layer_choices
 
 
 def choices() -> dict[str, Any]:
@@ -37,6 +38,7 @@ def choices() -> dict[str, Any]:
         "generators": ["empty", *GENERATORS],
         "planners": {name: options_of(name) for name in PLANNERS},
         "hints": planner_hints(),
+        "layers": layer_choices(),
         "exports": {what: {"suffixes": suffixes, "needs": needs} for what, (suffixes, needs) in EXPORTS.items()},
         "suffixes": SUFFIXES,
     }

@@ -19,22 +19,34 @@ from numpy.typing import NDArray
 
 from trihex.areas import GENERATORS, Area, Scenario, random_robots
 from trihex.bounds import distance_bound, make_lower_bound, slot_bound
-from trihex.errors import FormatError, TooLargeError, TrihexError, check_choice, check_type
+from trihex.errors import FormatError, TooLargeError, TrihexError, check_choice, check_type, is_whole
 from trihex.fields import distance_generations, make_d_scheme
 from trihex.files import read_bytes
-from trihex.formats import FORMATS, Draft, draft_of, format_of, read_draft, read_plan, read_run, read_starts
+from trihex.formats import (
+    FORMATS,
+    Draft,
+    draft_of,
+    format_of,
+    read_draft,
+    read_plan,
+    read_run,
+    read_start_times,
+    read_starts,
+)
 from trihex.judging import Report, audit_plan, make_report
-from trihex.planners import PLANNERS, make_plan
+from trihex.planners import PLANNERS, check_plannable, make_plan, uses_of
 from trihex.plans import Plan
 from trihex.running import Run, make_run_report
 from trihex.viewer import requests as ask
 from trihex.viewer.bundle import Bundle, decode, encode
 from trihex.viewer.call import TICK, Call, CancelledError, Send
-from trihex.viewer.compiling import prepare_for
+from trihex.viewer.compiling import are_compiled, prepare_for, prepare_usual
 from trihex.viewer.document import document_of, ground_of
 from trihex.viewer.exports import export
 from trihex.viewer.folder import Folder, holds_run, references_of
+from trihex.viewer.layers import LAYERS, make_layer, with_layers
 from trihex.viewer.live import Live, replay_of, trial_of
+from trihex.viewer.needs import Record, judging_of, needs_of, needs_of_draw, needs_of_report
 from trihex.viewer.shelf import Shelf
 from trihex.viewer.show import show_plan
 from trihex.viewer.show_run import show_run
@@ -55,10 +67,12 @@ class Desk:
     ----------
     folder : Folder, optional
         Where files are opened and saved; without one, files come from and go to the page only.
+    first : Area, Scenario, Plan or Run, optional
+        What the page asks for first, where compiling what it needs would keep the page from coming.
     """
 
-    def __init__(self, folder: Folder | None = None) -> None:
-        self.folder = folder
+    def __init__(self, folder: Folder | None = None, first: Record | None = None) -> None:
+        self.folder, self.first = folder, first
         self.shelf = Shelf()
 
     def answer(self, request: bytes, send: Send, is_cancelled: Callable[[], bool] = lambda: False) -> None:
@@ -78,16 +92,25 @@ class Desk:
             log.exception("a request of the page failed")
             send(encode({"kind": "error", "message": f"this is a fault of trihex: {error!r:.200}"}))
 
-    def show(self, record: Area | Scenario | Draft | Plan | Run) -> Bundle:
+    def show(self, record: Record) -> Bundle:
         """Return what a page shows of a record, as the result of "open" does."""
+        return self._record_shown(record, Call({}, lambda _: None, lambda: False))
+
+    def can_show_at_once(self, record: Record) -> bool:
+        """Tell whether nothing must be compiled for it."""
+        check_type("record", record, Area, Scenario, Plan, Run, Draft)
+        return are_compiled(needs_of(record))
+
+    def _record_shown(self, record: Record, call: Call) -> Bundle:
         check_type("record", record, Area, Scenario, Plan, Run, Draft)
         if isinstance(record, Run):
-            return show_run(make_run_report(record))
+            prepare_for(call, *needs_of(record))
+            return with_layers(show_run(make_run_report(record)), record)
         if isinstance(record, Plan):
-            return self._shown(record, {}, Call({}, lambda _: None, lambda: False))
+            return self._shown(record, {}, call)
         if isinstance(record, Scenario):
             return _drafted(draft_of(record))
-        return _drafted(_drawn(Draft(record) if isinstance(record, Area) else record))
+        return _drafted(_drawn(Draft(record) if isinstance(record, Area) else record, call))
 
     @property
     def last_plan(self) -> Plan | None:
@@ -100,6 +123,15 @@ class Desk:
         """What has happened so far in the last live run."""
         live = self.shelf.last_live
         return None if live is None else live.record()
+
+    def _first(self, request: ask.First, call: Call) -> Bundle:
+        if self.first is None:
+            raise FormatError("there is nothing to be shown first")
+        return self._record_shown(self.first, call)
+
+    def _prepare(self, request: ask.Prepare, call: Call) -> Bundle:
+        prepare_usual(call)
+        return Bundle({}, {})
 
     def _files(self, request: ask.ListFiles, call: Call) -> Bundle:
         names = self.folder.names() if self.folder else []
@@ -137,7 +169,8 @@ class Desk:
             return self._shown(plan, seconds, call)
         if form.holds == "starts":
             draft = call.draft(request)
-            return _drafted(replace(draft, robots=read_starts(path, draft.area), seed=None))
+            robots, times = read_starts(path, draft.area), read_start_times(path)
+            return _drafted(replace(draft, robots=robots, start_times=times, seed=None))
         options = {name: getattr(request, name) for name in _PLACE}
         try:
             draft = read_draft(path, request.tessellation, progress=call.progress("reading"), **options)
@@ -145,7 +178,7 @@ class Desk:
             if request.cell_size is None and form.name in _IN_METRES and "cell_size" in str(error):
                 return Bundle({"needs": "cell_size", "name": path.name}, {})
             raise
-        return _drafted(_drawn(draft))
+        return _drafted(_drawn(draft, call))
 
     def _generate(self, request: ask.Generate, call: Call) -> Bundle:
         check_choice("generator", request.generator, ["empty", *GENERATORS], FormatError)
@@ -160,12 +193,10 @@ class Desk:
         return _drafted(Draft(area))
 
     def _scatter(self, request: ask.Scatter, call: Call) -> Bundle:
-        draft = replace(call.draft(request), robots=None, random_count=request.count, seed=request.seed)
-        has_destination = draft.destinations is not None and draft.destinations.size > 0
-        prepare_for(
-            call, "n_scheme", scenario=replace(draft, random_count=None).complete() if has_destination else None
+        draft = replace(
+            call.draft(request), robots=None, start_times=None, random_count=request.count, seed=request.seed
         )
-        return _drafted(_drawn(draft))
+        return _drafted(_drawn(draft, call))
 
     def _fields(self, request: ask.Fields, call: Call) -> Bundle:
         scenario = call.scenario(request)
@@ -211,7 +242,8 @@ class Desk:
             draft = replace(draft, area=draft.area.with_tessellation(tessellation))
         scenario = draft.complete()
         check_choice("planner", request.planner, PLANNERS, FormatError)
-        prepare_for(call, request.planner, "audit", "page", scenario=scenario)
+        check_plannable(request.planner, scenario)
+        prepare_for(call, *uses_of(request.planner, scenario), *judging_of(scenario), scenario=scenario)
         seconds: dict[str, float] = {}
         begin = perf_counter()
         n_scheme = self.shelf.n_scheme(scenario)
@@ -225,7 +257,8 @@ class Desk:
     def _live(self, request: ask.Live, call: Call) -> Bundle:
         check_choice("planner", request.planner, PLANNERS, FormatError)
         scenario = call.scenario(request)
-        prepare_for(call, "trial", *((request.planner,) if request.replan else ()), scenario=scenario)
+        planner = uses_of(request.planner, scenario) if request.replan else ()
+        prepare_for(call, "trial", *planner, scenario=scenario)
         return self._begun(Live(trial_of(scenario, request)))
 
     def _begun(self, live: Live) -> Bundle:
@@ -245,7 +278,9 @@ class Desk:
         return self.shelf.live(request.live).advance(request)
 
     def _judge(self, request: ask.Judge, call: Call) -> Bundle:
-        report = self.shelf.live(request.live).judge()
+        live = self.shelf.live(request.live)
+        prepare_for(call, *needs_of_report(live.trial.scenario))
+        report = live.judge()
         return Bundle({"summary": report.as_dict(), "conflicts": [str(one) for one in report.audit.conflicts[:5]]}, {})
 
     def _save(self, request: ask.Save, call: Call) -> Bundle:
@@ -281,9 +316,15 @@ class Desk:
             self.shelf.replace_report(request.plan, report)
         return Bundle({"summary": report.as_dict()}, {})
 
+    def _layer(self, request: ask.MakeLayer, call: Call) -> Bundle:
+        check_choice("layer", request.layer, LAYERS, FormatError)
+        plan = self.shelf.report(request.plan).plan
+        prepare_for(call, *LAYERS[request.layer].uses, scenario=plan.scenario)
+        return make_layer(request.layer, plan, call.progress("pricing"))
+
     def _shown(self, plan: Plan, seconds: dict[str, float], call: Call) -> Bundle:
         """Return the plan with the bounds that are had at once; the page asks for a better one while it plays."""
-        prepare_for(call, "audit", "page", scenario=plan.scenario)
+        prepare_for(call, *judging_of(plan.scenario), scenario=plan.scenario)
         n_scheme = self.shelf.n_scheme(plan.scenario)
         begin = perf_counter()
         audit = audit_plan(plan, progress=call.progress("checking"))
@@ -293,11 +334,12 @@ class Desk:
         return show_plan(report, n_scheme, self.shelf.put_report(report))
 
 
-def _drawn(draft: Draft) -> Draft:
+def _drawn(draft: Draft, call: Call) -> Draft:
     """Return the draft with its robots drawn if they are still to be, where they can arrive if it has a destination."""
     if draft.random_count is None:
         return draft
-    if draft.destinations is not None and draft.destinations.size:
+    if needed := needs_of_draw(draft):
+        prepare_for(call, *needed)
         robots = draft.complete().robots
     else:
         robots = random_robots(draft.area, draft.random_count, draft.seed or 0)
@@ -305,6 +347,11 @@ def _drawn(draft: Draft) -> Draft:
 
 
 def _drafted(draft: Draft) -> Bundle:
+    if draft.doors or not (draft.destination_capacity is None or is_whole(draft.destination_capacity)):
+        raise FormatError(
+            "the viewer plans without doors that have a flow, so it cannot open a place that has some: "
+            "plan with trihex plan --out plan.npz, and open that"
+        )
     header, arrays = document_of(draft)
     ground, more = ground_of(draft)
     return Bundle({"document": header, "planner": draft.planner, "ground": ground}, {**arrays, **more})

@@ -47,8 +47,12 @@ def open_viewer(
         If there is no such folder, or the port is taken.
     """
     check_whole("port", port, 0, 65535, ArgumentError)
-    desk = Desk(Folder(folder))
-    viewing = make_viewing(desk, None if record is None else desk.show(record), port=port)
+    desk, first = Desk(Folder(folder)), None
+    if record is not None and desk.can_show_at_once(record):
+        first = desk.show(record)
+    else:
+        desk.first = record
+    viewing = make_viewing(desk, first, port=port)
     tell(viewing.address)
     if browser:
         # It listens already: a browser that is faster than the server waits for it.

@@ -133,6 +133,7 @@ class Live:
         refused = [one for one in trial.occurrences[told:] if not one.is_accepted]
         header: dict[str, Any] = {
             "step": trial.steps_done,
+            "pace": int(trial.scenario.duration_of_direction.min()),
             "robots": int(state.size),
             "arrived": int(np.count_nonzero(state == ARRIVED)),
             "going": int(np.count_nonzero(state == GOING)),
@@ -155,7 +156,21 @@ class Live:
             "distance_cells": moved.astype(np.int32),
             "distance": distance[moved],
         }
-        return Bundle(header, arrays)
+        return Bundle(header, {**arrays, **self._ways()})
+
+    def _ways(self) -> dict[str, NDArray[Any]]:
+        """Return from where robots come that moved in the last tick, -1 for others, and how much of that way is done.
+
+        Where all moves last a step and robots follow at once that goes without saying.
+        """
+        fleet = self.trial.execution.fleet
+        if not fleet.claims.is_timed:
+            return {}
+        duration = fleet.claims.duration[np.minimum(fleet.heading, fleet.claims.duration.size - 1)]
+        moves = (fleet.came_from >= 0) & (fleet.due >= fleet.tick) & (fleet.heading < UNDERWAY)
+        done = 1 - (fleet.due - fleet.tick) / duration
+        came_from = np.where(moves, self.trial.layout.site_to_cell(fleet.came_from), -1)
+        return {"came_from": came_from.astype(np.int32), "share": np.rint(255 * np.clip(done, 0, 1)).astype(np.uint8)}
 
     def record(self) -> Run:
         """Return the run so far."""

@@ -21,6 +21,7 @@ from trihex.pictures import FOG, FOG_BARRIER, palette
 from trihex.plans import Motion
 from trihex.running import Run, RunReport, make_run_report
 from trihex.viewer.bundle import Bundle, encode
+from trihex.viewer.layers import layer_choices, with_layers
 from trihex.viewer.script import module, source_of
 from trihex.viewer.show import show_plan
 from trihex.viewer.show_run import show_run
@@ -36,10 +37,11 @@ def settings_of(**more: Any) -> dict[str, Any]:
     """Return what every page needs to know: colours, and what `more` says of its host."""
     names = ("FREE", "BARRIER", "DESTINATION", "UNREACHED", "MOVING", "WAITING", "FINAL", "STRANDED", "TIGHT", "INK")
     ramp = palette.distance_ramp(256).tolist()
+    visits = palette.visits_ramp(256).tolist()
     series = [list(colour) for colour in palette.SERIES]
     colours = {name.lower(): list(getattr(palette, name)) for name in names}
     fog = {"fog": list(FOG), "fog_barrier": list(FOG_BARRIER), "late": list(palette.SERIES[1])}
-    return {"colours": {**colours, **fog, "distance": ramp, "series": series}, **more}
+    return {"colours": {**colours, **fog, "distance": ramp, "visits": visits, "series": series}, **more}
 
 
 def page_with(
@@ -123,15 +125,15 @@ def write_report_page(
     motion = report.run if isinstance(report, RunReport) else report.plan
     name = motion.scenario.area.name
     title = f"{motion.planner or 'plan'}{f' on {name}' if name else ''} - trihex"
-    html, _ = page_with(settings_of(host="alone"), first, title, is_alone=True)
+    html, _ = page_with(settings_of(host="alone", layers=layer_choices(is_alone=True)), first, title, is_alone=True)
     with new_file(path) as part:
         part.write_text(html, encoding="utf-8")
 
 
 def _bundle_of(report: Report | RunReport) -> Bundle:
     if isinstance(report, RunReport):
-        return show_run(report)
-    return show_plan(report, make_n_scheme(report.plan.scenario))
+        return with_layers(show_run(report), report.run)
+    return with_layers(show_plan(report, make_n_scheme(report.plan.scenario)), report.plan)
 
 
 def _hash_of(text: str) -> str:

@@ -21,6 +21,14 @@ class Request(BaseModel):
     document: dict[str, Any] | None = None
 
 
+class First(Request):
+    """What the page shows first, where it is not part of the page."""
+
+
+class Prepare(Request):
+    """Compile what most requests will need, beside all else."""
+
+
 class ListFiles(Request):
     """The files that may be opened."""
 
@@ -78,6 +86,13 @@ class Bound(Request):
     plan: _Text
 
 
+class MakeLayer(Request):
+    """A map of a plan over its cells."""
+
+    plan: _Text
+    layer: _Text
+
+
 class Live(Request):
     """A run that the page drives step by step; `sense` in cells, None for robots that know everything."""
 
@@ -131,6 +146,8 @@ class Save(Request):
 
 
 REQUESTS: dict[str, type[Request]] = {
+    "first": First,
+    "prepare": Prepare,
     "files": ListFiles,
     "open": OpenFile,
     "generate": Generate,
@@ -139,6 +156,7 @@ REQUESTS: dict[str, type[Request]] = {
     "generations": Generations,
     "plan": MakePlan,
     "bound": Bound,
+    "layer": MakeLayer,
     "live": Live,
     "advance": Advance,
     "judge": Judge,

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 LOOPBACK = "127.0.0.1"
 MAX_BODY = 2**26  # bytes of a request: 16 million cells and two million robots take 10 MB
-_MOST_JOBS = 4
+_MOST_JOBS = 8  # a page has three at most: a question, a step of a live run, and what is compiled beside them
 _HEADERS = {
     "X-Content-Type-Options": "nosniff",
     "Referrer-Policy": "no-referrer",
@@ -254,5 +254,6 @@ def make_viewing(desk: Desk, first: Bundle | None = None, *, port: int = 0) -> V
     listener.bind((LOOPBACK, port))
     listener.listen()
     port, token = listener.getsockname()[1], token_urlsafe(18)
-    app = make_app(desk, first, settings_of(host="server", folder=desk.folder is not None, **choices()), token, port)
+    more = {"folder": desk.folder is not None, "first": desk.first is not None}
+    app = make_app(desk, first, settings_of(host="server", **more, **choices()), token, port)
     return Viewing(f"http://{LOOPBACK}:{port}/{token}/", app, listener)

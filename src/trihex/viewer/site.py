@@ -20,6 +20,7 @@ from trihex.viewer.bundle import Bundle, decode, encode
 from trihex.viewer.choices import choices
 from trihex.viewer.desk import MAX_AUTOMATON_CELLS, Desk
 from trihex.viewer.document import document_of
+from trihex.viewer.layers import layer_choices
 from trihex.viewer.page import page_with, settings_of
 from trihex.viewer.script import module
 
@@ -117,11 +118,11 @@ def _shapes_of(area: Area) -> tuple[str, ...]:
 
 def _answers(desk: Desk, scenario: Scenario, planners: tuple[str, ...], progress: Progress) -> dict[str, bytes]:
     """Return all answers by the names of their files, as the page spells them."""
-    shapes, found = _shapes_of(scenario.area), {}
+    shapes, layers, found = _shapes_of(scenario.area), layer_choices(is_alone=True), {}
 
     def ask(name: str, wish: dict[str, Any]) -> bytes:
         found[f"answers/{name}.bin"] = answer = _answer(desk, scenario, wish)
-        progress(len(found), 2 + 2 * len(shapes) * len(planners))
+        progress(len(found), 2 + (2 + len(layers)) * len(shapes) * len(planners))
         return answer
 
     ask("fields", {"op": "fields"})
@@ -133,6 +134,8 @@ def _answers(desk: Desk, scenario: Scenario, planners: tuple[str, ...], progress
         for plan in plans:  # when all are there: one may have proven the optimum
             name = decode(plan[4:]).header["plan"]
             ask(f"bound-{name}", {"op": "bound", "plan": name})
+            for layer in layers:
+                ask(f"layer-{layer}-{name}", {"op": "layer", "plan": name, "layer": layer})
     return found
 
 
@@ -152,8 +155,13 @@ def _choices_for(scenario: Scenario, planners: tuple[str, ...]) -> dict[str, Any
     """Return what the page offers: plans that there are, and no options."""
     offered = choices()
     hints = {name: {**offered["hints"][name], "options": {}} for name in planners}
-    shapes = {"steps": offered["steps"], "names": offered["names"], "tessellations": _shapes_of(scenario.area)}
-    return {**shapes, "planners": {name: {} for name in planners}, "hints": hints}
+    plain = {name: offered[name] for name in ("steps", "names", "layers")}
+    return {
+        **plain,
+        "tessellations": _shapes_of(scenario.area),
+        "planners": {name: {} for name in planners},
+        "hints": hints,
+    }
 
 
 def _written(root: Path, contents: dict[str, bytes]) -> list[Path]:

@@ -33,6 +33,7 @@ class Surroundings(NamedTuple):
     when: OUT_I32  # steps of each of them; a node that was reached sooner since stands in another line, too
     head: OUT_I64  # the first of each line
     tail: OUT_I64  # and its end
+    detour: types.int64  # sites are left out where the way is so much longer than that to the nearest destination
 
 
 LANDMARKS, SURROUNDINGS = declared(Landmarks), declared(Surroundings)
@@ -61,9 +62,11 @@ def _is_end(gate, node, is_destination, landmarks, found):
 
 
 @HELPER
-def _enter(gate, node, steps, line, gate_of_node, found):
-    """Put a node into a line, unless it has been reached as soon or belongs to the gate under way."""
+def _enter(gate, node, steps, line, graph, gate_of_node, found):
+    """Put a node into a line, unless it has been reached as soon, is too far or belongs to the gate under way."""
     if 0 <= found.steps[node] <= steps or (gate >= 0 and gate_of_node[node] == gate):
+        return
+    if node < len(graph.steps) and steps - graph.steps[node] > found.detour:
         return
     found.steps[node] = steps
     tail = found.tail[line]
@@ -92,14 +95,14 @@ def _go_on(gate, site, graph, gate_of_node, found):
     for k in range(graph.first_vertex_move):
         if bits >> k & 1:
             node = site + graph.offset[site & 1, k]
-            _enter(gate, node, steps + graph.duration[k], graph.line[k], gate_of_node, found)
+            _enter(gate, node, steps + graph.duration[k], graph.line[k], graph, gate_of_node, found)
     for k in range(graph.first_vertex_move, graph.offset.shape[1]):
         if bits >> k & 1:
             node, line = len(graph.moves) + site + graph.vertex[site & 1, k], graph.vertex_line
             duration = graph.vertex_duration
             if gate_of_node[node] < 0:
                 node, line, duration = site + graph.offset[site & 1, k], np.int64(graph.line[k]), graph.duration[k]
-            _enter(gate, node, steps + duration, line, gate_of_node, found)
+            _enter(gate, node, steps + duration, line, graph, gate_of_node, found)
 
 
 @kernel(types.void(types.int64, IN_I32, NODE_GRAPH, LANDMARKS, SURROUNDINGS))
@@ -114,7 +117,7 @@ def look_around(gate, starts, graph, landmarks, found):
     for line in range(len(found.head)):
         found.head[line] = found.tail[line] = line * len(found.steps)
     for site in starts:
-        _enter(np.int64(-1), site, np.int32(0), np.int64(0), landmarks.gate_of_node, found)
+        _enter(np.int64(-1), site, np.int32(0), np.int64(0), graph, landmarks.gate_of_node, found)
     line = _nearest_line(found)
     while line >= 0:
         head = found.head[line]

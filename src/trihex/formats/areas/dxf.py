@@ -56,7 +56,7 @@ def parse_dxf(content: bytes, path: str | os.PathLike[str], options: AreaOptions
             f"{path}: walls enclose no place: exits close openings (--exits LAYER), or name a layer of rooms (--rooms "
             f"LAYER); walls are {', '.join(layers['walls']) or 'none'}"
         )
-    drawn = [one for part in parts for one in checked_parts(str(path), part)]
+    drawn = checked_parts([Drawn(str(path), part) for part in parts])
     draft = draft_of_place(Place(path, drawn, [], exits, []), options, progress)
     return draft.with_notes(_notes(drawing, layers))
 
@@ -136,8 +136,8 @@ def _exits(drawing: Drawing, layers: list[str], path: object) -> list[Drawn]:
             away = shapely.distance(shape, shapely.points([(x, y) for _, x, y in words])) if words else np.empty(0)
             nearest = int(np.argmin(away)) if away.size else -1
             name = words[nearest].text[:200] if nearest >= 0 and away[nearest] <= _FARTHEST_NAME else ""
-            exits += checked_parts(f"{path}: exit {number} of layer {layer}", shape, name)
-    return [one for one in exits if not one.shape.is_empty]
+            exits.append(Drawn(f"{path}: exit {number} of layer {layer}", shape, name))
+    return [one for one in checked_parts(exits) if not one.shape.is_empty]
 
 
 def _enclosed(wall: Any, exits: list[Any]) -> Any:

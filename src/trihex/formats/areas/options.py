@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from numbers import Real
 
 from trihex.areas import (
     ALIGNS,
+    CLOCKS,
     FOLLOWINGS,
     Area,
     Covering,
@@ -63,7 +64,8 @@ class AreaOptions(Record):
     wall_thickness : float
         Of the lines of a DXF file that are walls, in metres.
     following : {"allow", "forbid"}
-        The rule that the least cell size for robots of the radius depends on.
+    clock : {"steps", "costs"}, optional
+        The rules that the least cell size for robots of the radius depends on. Default: the clock of `tessellation`.
 
     Raises
     ------
@@ -86,11 +88,14 @@ class AreaOptions(Record):
     unit: str | None = None
     wall_thickness: float = 0.0
     following: str = "allow"
+    clock: str | None = None
 
     def __post_init__(self) -> None:
         self._set("tessellation", tessellation_from(self.tessellation))
         check_choice("unknown", self.unknown, UNKNOWNS, FormatError)
         check_choice("following", self.following, FOLLOWINGS, FormatError)
+        if self.clock is not None:
+            check_choice("clock", self.clock, CLOCKS, FormatError)
         check_choice("align", self.align, (*ALIGNS, "shift"), FormatError)
         if not isinstance(self.threshold, Real) or not 0 <= self.threshold <= 1:
             raise FormatError(f"threshold must be between 0 and 1, not {self.threshold!r:.80}")
@@ -106,7 +111,8 @@ class AreaOptions(Record):
         """The cell size, or the least for robots of the radius; None where there is neither."""
         if self.cell_size is not None or not isinstance(self.robot_radius, Real) or not self.robot_radius > 0:
             return self.cell_size
-        return round_up_size(least_cell_size(self.tessellation, float(self.reach), self.following))
+        cells = replace(self.tessellation, clock=self.clock or self.tessellation.clock)
+        return round_up_size(least_cell_size(cells, float(self.reach), self.following))
 
     def area_of(self, ground: Ground, covering: Covering, name: str, progress: Progress | None) -> Area:
         """Return the area that covers a ground as the options say."""

@@ -11,7 +11,7 @@ from trihex.areas import import_shapely
 from trihex.areas.coverage import Progress
 from trihex.errors import FormatError
 from trihex.formats.areas.options import AreaOptions
-from trihex.formats.areas.polygons import Place, checked_parts, draft_of_place
+from trihex.formats.areas.polygons import Drawn, Place, checked_parts, draft_of_place
 from trihex.formats.draft import Draft
 from trihex.formats.text import Text
 
@@ -53,7 +53,7 @@ def parse_wkt(content: Text, path: str | os.PathLike[str], options: AreaOptions,
     except (shapely.errors.ShapelyError, ValueError, NotImplementedError) as error:
         reason = str(error).partition(": ")[2] or str(error)
         raise FormatError(f"{path}: is no WKT: {reason:.120}{_hint(text)}") from None
-    drawn = [one for one in checked_parts(str(path), geometry) if not one.shape.is_empty]
+    drawn = [one for one in checked_parts([Drawn(str(path), geometry)]) if not one.shape.is_empty]
     free = [one for one in drawn if one.shape.geom_type == "Polygon"]
     obstacles = [one for one in drawn if one.shape.geom_type != "Polygon"]
     return draft_of_place(Place(path, free, obstacles, [], []), options, progress)

@@ -82,8 +82,10 @@ def parse_plan_csv(
 ) -> Plan:
     """Return the plan that a CSV file holds for the area, the destinations and the rules of `scenario`.
 
-    The robots are those of the file; those of `scenario` are not looked at. Rows may come in any order. A row whose
-    action does not lead from the robot's last cell to this one becomes `JUMP`, which no audit lets pass.
+    The robots are those of the file; if they are those of `scenario` its start times are theirs. Rows may come in any
+    order. A row whose action does not lead from the robot's last cell to this one becomes `JUMP`, which no audit lets
+    pass.
+
 
     Parameters
     ----------
@@ -141,6 +143,8 @@ def plan_of_table(table: NDArray[np.int64], scenario: Scenario, path: object) ->
     firsts = np.flatnonzero(is_start)
     given = {field.name: getattr(scenario, field.name) for field in fields(scenario)}
     given |= {"robots": cells[is_start], "seed": None}
+    if not np.array_equal(given["robots"], scenario.robots):
+        given["start_times"] = ()
     return Plan(
         claimed(lambda kind: kind(**given)),
         own,

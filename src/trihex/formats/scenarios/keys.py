@@ -5,11 +5,22 @@ from __future__ import annotations
 from pathlib import PurePath
 from typing import Annotated, Any
 
+import numpy as np
 from pydantic import AfterValidator, Field
 
-from trihex.areas import ALIGNS, CLOCKS, CORNERS, COSTS, CROSSINGS, FOLLOWINGS, NEIGHBOURHOODS, TESSELLATIONS
+from trihex.areas import (
+    ALIGNS,
+    CLOCKS,
+    CORNERS,
+    COSTS,
+    CROSSINGS,
+    FOLLOWINGS,
+    NEIGHBOURHOODS,
+    TESSELLATIONS,
+)
+from trihex.errors import is_whole
 from trihex.formats.areas.options import UNKNOWNS
-from trihex.formats.schema import Cells, Count, Number, Points, Table, Whole, choice
+from trihex.formats.schema import LARGEST, Cells, Flow, Number, Points, Table, Whole, choice, distribution
 
 
 class FrameTable(Table):
@@ -55,9 +66,27 @@ class RulesTable(Table):
     waiting_cost: Whole | None = None
     crossing: Annotated[str, choice("it", CROSSINGS)] | None = None
     corners: Annotated[str, choice("it", CORNERS)] | None = None
-    destination_capacity: Count | None = None
+    destination_capacity: Flow | None = None
     clock: Annotated[str, choice("it", CLOCKS)] | None = None
     following: Annotated[str, choice("it", FOLLOWINGS)] | None = None
+
+
+class DoorTable(Table):
+    """[[doors]]: cells that only so many robots enter in a step, those of a zone or others."""
+
+    one_of = ("zone", "cells", "!")
+    zone: str | None = None
+    cells: Cells | None = None
+    capacity: Flow
+
+
+def _start_times(value: object) -> object:
+    """Return start times, or a distribution of them."""
+    if isinstance(value, str):
+        return distribution(value)
+    if isinstance(value, list) and all(is_whole(one) and 0 <= one <= LARGEST for one in value):
+        return np.array(value, dtype=np.int64)
+    raise ValueError(f"must be a list of whole numbers of steps, or a distribution in quotes, not {value!r:.60}")
 
 
 class RobotsTable(Table):
@@ -69,6 +98,8 @@ class RobotsTable(Table):
     file: str | None = None
     random: Whole | None = None
     seed: Whole | None = None
+    # Steps of each, or what draws them, in seconds in an area with a frame.
+    start_times: Annotated[Any, AfterValidator(_start_times)] = None
 
 
 class PlannerTable(Table):
@@ -113,6 +144,7 @@ class ScenarioTable(Table):
     destinations: Cells | None = None
     destinations_in_metres: Points | None = None
     rules: RulesTable = RulesTable()
+    doors: list[DoorTable] = Field(default_factory=list)
     robots: RobotsTable = RobotsTable()
     planner: PlannerTable = PlannerTable()
     outputs: OutputsTable = OutputsTable()

@@ -6,6 +6,7 @@ import json
 import os
 from collections.abc import Callable
 from dataclasses import fields, replace
+from fractions import Fraction
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -20,7 +21,7 @@ from trihex.formats.areas.options import AreaOptions
 from trihex.formats.draft import Draft
 from trihex.formats.scenarios.keys import OUTPUT_PATHS, ScenarioTable
 from trihex.formats.schema import check_document
-from trihex.formats.starts.starts import read_starts
+from trihex.formats.starts.starts import read_start_times, read_starts
 from trihex.formats.text import Text
 from trihex.formats.toml import complaint, parse_toml
 
@@ -84,11 +85,14 @@ def _draft_of(
     destinations = attempt("destinations", lambda: cells(table.destinations))
     if table.destinations_in_metres is not None:
         destinations = attempt("destinations_in_metres", lambda: metres(table.destinations_in_metres))
+    own_times = None
     starts = attempt("robots.cells", lambda: cells(robots.cells))
     if robots.metres is not None:
         starts = attempt("robots.metres", lambda: metres(robots.metres))
     if (file := robots.file) is not None:
         starts = attempt("robots.file", lambda: read_starts(path.parent / file, area))
+        own_times = attempt("robots.file", lambda: read_start_times(path.parent / file)) if starts is not None else None
+    doors = attempt("doors", lambda: [(door.zone or door.cells, door.capacity) for door in table.doors])
     has_robots = starts is not None or robots.random is not None
     return Draft(
         area,
@@ -100,6 +104,8 @@ def _draft_of(
         planner=table.planner.name,
         planner_options=table.planner.options,
         outputs=_outputs(table, path),
+        start_times=own_times if robots.start_times is None else robots.start_times,
+        doors=(*draft.doors, *(doors or ())),
     )
 
 
@@ -112,10 +118,11 @@ def _outputs(table: ScenarioTable, path: Path) -> dict[str, Any]:
 def _area_draft(whole: ScenarioTable, path: Path, read_area_draft: Callable[[Path, AreaOptions], Draft]) -> Draft:
     table = whole.area
     tessellation = Tessellation(table.tessellation, table.neighbourhood, table.costs)
-    names = (own.name for own in fields(AreaOptions) if own.name not in ("tessellation", "following"))
+    names = (own.name for own in fields(AreaOptions) if own.name not in ("tessellation", "following", "clock"))
     options = {name: value for name in names if (value := getattr(table, name)) is not None}
     if table.path is not None:
-        options["following"] = whole.rules.following or "allow"  # the least cells for robots depend on it
+        # The least cells for robots depend on them.
+        options |= {"following": whole.rules.following or "allow", "clock": whole.rules.clock}
         draft = read_area_draft(path.parent / table.path, AreaOptions(tessellation, **options))
     elif options:
         raise ScenarioError(f"{min(options)} tells how the file at area.path is read; rows take a table area.frame")
@@ -155,12 +162,14 @@ def write_scenario_toml(
         f"waiting_cost = {scenario.waiting_cost}" if scenario.clock == "steps" else "",  # else it is 1 a tick
         f"crossing = {_text(scenario.crossing)}",
         f"corners = {_text(scenario.corners)}",
-        f"destination_capacity = {scenario.destination_capacity}" if scenario.destination_capacity else "",
+        f"destination_capacity = {_flow(scenario.destination_capacity)}" if scenario.destination_capacity else "",
         f"clock = {_text(scenario.clock)}" if scenario.clock != "steps" else "",
         f"following = {_text(scenario.following)}" if scenario.following != "allow" else "",
+        *_door_lines(scenario),
         "",
         "[robots]",
         f"cells = {_cells(area, scenario.robots)}",
+        f"start_times = {scenario.start_times.tolist()}" if scenario.has_start_times else "",
         f"seed = {scenario.seed}" if scenario.seed is not None else "",
     ]
     if planner:
@@ -231,6 +240,21 @@ def _zone_lines(area: Area) -> list[str]:
     if not area.zones:
         return []
     return ["", "[area.zones]", *(f"{_text(zone.name)} = {_cells(area, zone.cells)}" for zone in area.zones)]
+
+
+def _door_lines(scenario: Scenario) -> list[str]:
+    lines, zones = [], {zone.name: zone.cells for zone in scenario.area.zones}
+    for door in scenario.doors:
+        is_zone = door.name in zones and np.array_equal(door.cells, zones[door.name])
+        where = f"zone = {_text(door.name)}" if is_zone else f"cells = {_cells(scenario.area, door.cells)}"
+        lines += ["", "[[doors]]", where, f"capacity = {_flow(door.flow)}"]
+    return lines
+
+
+def _flow(flow: int | Fraction) -> str:
+    """Return a flow in robots a step: a whole number, or a fraction as text."""
+    numerator, denominator = flow.as_integer_ratio()
+    return str(numerator) if denominator == 1 else _text(f"{numerator}/{denominator}")
 
 
 def _cells(area: Area, cells: NDArray[np.int64]) -> str:

@@ -12,6 +12,8 @@ from trihex.errors import check_type
 from trihex.files import read_bytes
 from trihex.formats.recognise import format_of
 from trihex.formats.registry import FORMATS
+from trihex.formats.starts.csv import parse_start_times
+from trihex.formats.text import check_text
 
 
 def read_starts(path: str | os.PathLike[str], area: Area) -> NDArray[np.int64]:
@@ -21,7 +23,7 @@ def read_starts(path: str | os.PathLike[str], area: Area) -> NDArray[np.int64]:
     ----------
     path : path
         CSV with the header `x,y` of cells or `x_metres,y_metres` of points in the world, or a MovingAI ``.scen``, of
-        which only the starts are read.
+        which only the starts are read. For a third column, `start`, see `read_start_times`.
     area : Area
 
     Raises
@@ -40,3 +42,24 @@ def read_starts(path: str | os.PathLike[str], area: Area) -> NDArray[np.int64]:
         form = FORMATS["starts"]  # it will tell what is wrong
     cells: NDArray[np.int64] = form.parse(content, path, area)
     return cells
+
+
+def read_start_times(path: str | os.PathLike[str]) -> NDArray[np.float64] | None:
+    """Return when the robots of a file begin to move, or None if it does not tell.
+
+    `start_times_of` makes steps of them: they are seconds in an area with a frame, and else steps.
+
+    Parameters
+    ----------
+    path : path
+        What `read_starts` takes; CSV tells it in a third column, `start`.
+
+    Raises
+    ------
+    FormatError
+        If the column holds something else than numbers from 0 on.
+    OSError
+        If the file cannot be read.
+    """
+    content = read_bytes(path)
+    return parse_start_times(check_text(content, path), path) if format_of(content, path) == "starts" else None

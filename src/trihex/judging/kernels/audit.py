@@ -16,6 +16,7 @@ from trihex.judging.kernels.meetings import (
     PLACES,
     enter,
     judge_crossing,
+    judge_door,
     judge_exchange,
     retire,
     stand,
@@ -60,9 +61,10 @@ def _judge_deed(robot, step, law, deeds, robots, places, findings):
         return False
     _judge_way(deed, law, robots, places, findings)
     if deed.onto >= 0:
+        judge_door(deed, law, findings)
         stand(deed, robots, places, findings)
         return goes_on
-    enter(deed, law.capacity, robots, places, findings)
+    enter(deed, law, robots, places, findings)
     if goes_on:
         note(findings, step, ACTS_ON, (robot, NONE), (deed.target, NONE, NONE, NONE))
     return False

@@ -8,7 +8,7 @@ from numba import types
 from trihex.kernels.signatures import APART, OUT_I64, declared
 
 # Numbers that are handed to helpers are np.int64, or numba would compile these for each of them.
-CELL, EXCHANGE, CROSSING, JUMPS, OUT_OF_AREA, ONTO_BARRIER, CORNER, CAPACITY, ACTS_ON, OWNED = np.arange(10)
+CELL, EXCHANGE, CROSSING, JUMPS, OUT_OF_AREA, ONTO_BARRIER, CORNER, CAPACITY, ACTS_ON, OWNED, SHUT = np.arange(11)
 NONE = np.int64(-1)
 ROWS = types.Array(types.int32, 2, "C")
 

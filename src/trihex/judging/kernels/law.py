@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import types
 
+from trihex.judging.kernels.doors import GUARDED_CELLS
 from trihex.kernels.signatures import APART, HELPER, IN_I32, TABLE_I32, declared
 
 # `place` tells in one number for each site what lies there, and which robot came there last: the robot on a free cell,
@@ -30,6 +31,7 @@ class Law(NamedTuple):
     capacity: types.int64  # how many robots may enter a destination in a step, 0 for any number
     duration: IN_I32  # how many ticks a move in each direction lasts
     forbids_following: types.boolean  # whether a robot owns both cells for the whole move
+    doors: GUARDED_CELLS  # the cells that let robots in by a schedule
 
 
 LAW = declared(Law)

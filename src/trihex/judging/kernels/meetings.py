@@ -10,7 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from trihex.judging.kernels.findings import CAPACITY, CELL, CROSSING, EXCHANGE, NONE, note
+from trihex.judging.kernels.doors import enters_in_vain, is_shut
+from trihex.judging.kernels.findings import CAPACITY, CELL, CROSSING, EXCHANGE, NONE, SHUT, note
 from trihex.judging.kernels.law import BARRIER
 from trihex.kernels.signatures import HELPER, OUT_I32, declared
 
@@ -69,7 +70,7 @@ def judge_exchange(deed, robots, places, findings):
 
 
 @HELPER
-def enter(deed, capacity, robots, places, findings):
+def enter(deed, law, robots, places, findings):
     """Let a robot enter a destination, and judge whether there was room for it."""
     robot = deed.robot
     other = ~deed.onto
@@ -77,8 +78,16 @@ def enter(deed, capacity, robots, places, findings):
     is_after_other = other < robot and robots.site[other] == ~deed.target
     robots.rank[robot] = robots.rank[other] + 1 if is_after_other else 1
     places.place[deed.target] = ~robot
-    if capacity > 0 and robots.rank[robot] > capacity:
+    is_too_many = enters_in_vain(deed.target, deed.step, law.doors)
+    if is_too_many or (law.capacity > 0 and robots.rank[robot] > law.capacity):
         note(findings, deed.step, CAPACITY, (robot, NONE), (deed.target, NONE, NONE, NONE))
+
+
+@HELPER
+def judge_door(deed, law, findings):
+    """Judge whether a robot comes into a cell that lets nobody in then."""
+    if deed.target != deed.here and is_shut(deed.target, deed.step, law.doors):
+        note(findings, deed.step, SHUT, (deed.robot, NONE), (deed.target, NONE, NONE, NONE))
 
 
 @HELPER

@@ -9,7 +9,8 @@ import numpy as np
 from numba import types
 
 from trihex.judging.kernels.deeds import DEEDS, NO_VERTEX, deed_at
-from trihex.judging.kernels.findings import ACTS_ON, FINDINGS, JUMPS, NONE, OUT_OF_AREA, note
+from trihex.judging.kernels.doors import enters_in_vain, is_shut
+from trihex.judging.kernels.findings import ACTS_ON, CAPACITY, FINDINGS, JUMPS, NONE, OUT_OF_AREA, SHUT, note
 from trihex.judging.kernels.ground import judge_ground
 from trihex.judging.kernels.law import LAW, OUTSIDE
 from trihex.judging.kernels.owners import (
@@ -58,11 +59,13 @@ def _rest(robot, half_tick, i, law, deeds, movers):
 
 
 @HELPER
-def _vanish(robot, half_tick, deeds, movers, owners, findings):
+def _vanish(robot, half_tick, law, deeds, movers, owners, findings):
     """Take a robot that has entered a destination out of the area."""
     site = np.int64(movers.target[robot])
     owners.until[site] -= 1
     movers.due[robot] = GONE
+    if enters_in_vain(site, half_tick // 2, law.doors):
+        note(findings, half_tick // 2, CAPACITY, (robot, NONE), (site, NONE, NONE, NONE))
     if deeds.first[robot] + movers.coming[robot] + 1 < deeds.first[robot + 1]:
         note(findings, half_tick // 2, ACTS_ON, (robot, NONE), (site, NONE, NONE, NONE))
 
@@ -97,6 +100,8 @@ def _leave(robot, half_tick, law, deeds, movers, owners, findings):
     judge_ground(deed, law, owners.place, findings)
     if deed.vertex != NO_VERTEX and law.forbids_crossing:
         own_vertex(deed, half_tick, half_tick + 2 * duration, movers, owners, findings)
+    if deed.onto >= 0 and deed.target != deed.here and is_shut(deed.target, half_tick // 2 + duration, law.doors):
+        note(findings, half_tick // 2 + duration, SHUT, (robot, NONE), (deed.target, NONE, NONE, NONE))
     if deed.target != deed.here:
         judge_exchange(deed, half_tick, movers, owners, findings)
     if law.forbids_following:
@@ -114,7 +119,7 @@ def _judge_half_tick(half_tick, turns, law, deeds, movers, owners, findings):
             if movers.due[_U(robot)] != half_tick or movers.phase[_U(robot)] != phase:
                 continue
             if phase == VANISHES:
-                _vanish(robot, half_tick, deeds, movers, owners, findings)
+                _vanish(robot, half_tick, law, deeds, movers, owners, findings)
             elif phase == LEAVES:
                 _leave(robot, half_tick, law, deeds, movers, owners, findings)
             else:

@@ -20,6 +20,7 @@ from trihex.optimum.kernels.residual import (
     DONE,
     EXHAUSTED,
     FOUND,
+    LAYERS_FULL,
     LIST_FULL,
     OFFSET,
     OTHER,
@@ -33,6 +34,7 @@ from trihex.optimum.kernels.slots import (
     FIRST,
     FROM,
     GOAL,
+    LAST,
     LEFT,
     LIST,
     LOGGED,
@@ -230,6 +232,8 @@ def fill_slots(graph, search, robots, budget):
             return BUDGET_SPENT
         if state[LOGGED] == 0:
             state[BUDGET] -= 1
+            if state[GOAL] == len(graph.out) and state[STEP] == state[LAST]:
+                return LAYERS_FULL
             _next_slot(graph, search)
             continue
         status = _look(graph, search)

@@ -39,16 +39,33 @@ def _arc_to(node, target, out):
 
 
 @HELPER
-def _arc_to_vertex(node, target, graph):
-    """Return the place of the arc to a lattice vertex through which a node is reached, -1 if there is none."""
+def _leads_past(node, target, graph):
+    """Tell whether a lattice vertex leads to a node past the gate of a door."""
     out = graph.out
     for i in range(out.shape[1]):
         if out[node, i, OFFSET] == 0:
             break
-        vertex = out[node, i, OTHER]
-        if graph.cell_count <= vertex < graph.first_goal and _arc_to(vertex, target, out) >= 0:
+        gate = out[node, i, OTHER]
+        if graph.cell_count <= gate < graph.first_goal and _arc_to(gate, target, out) >= 0:
+            return True
+    return False
+
+
+@HELPER
+def _arc_past(node, target, graph):
+    """Return the place of the arc by which a node is reached past a lattice vertex or a gate, or both; -1: none."""
+    out, past_both = graph.out, -1
+    for i in range(out.shape[1]):
+        if out[node, i, OFFSET] == 0:
+            break
+        between = out[node, i, OTHER]
+        if not graph.cell_count <= between < graph.first_goal:
+            continue
+        if _arc_to(between, target, out) >= 0:
             return i
-    return -1
+        if _leads_past(between, target, graph):
+            past_both = i
+    return past_both
 
 
 @HELPER
@@ -78,8 +95,8 @@ def lay_plan(plan, graph, words):
             if action != WAIT:
                 target = np.int64(plan.node_of_site[site + plan.offset[site & 1, action]])
             i = _arc_to(node, target, graph.out)
-            if i < 0:
-                i = _arc_to_vertex(node, target, graph)
+            while i < 0:
+                i = _arc_past(node, target, graph)
                 if i < 0:
                     return False
                 at, node = _go(at, node, i, graph, words), np.int64(graph.out[node, i, OTHER])

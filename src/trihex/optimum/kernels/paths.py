@@ -13,7 +13,7 @@ from trihex.optimum.kernels.residual import OFFSET, TABLE
 class FlowPaths(NamedTuple):
     """A flow, and where robots enter it."""
 
-    start: IN_I64  # index of the node of each robot in step 0
+    start: IN_I64  # index of the node of each robot in step 0, or when it may go
     flow: OUT_U8  # of all nodes of all layers, see `flow_byte`
     out: TABLE  # arcs that leave each node of a layer
     cell_count: types.int64  # nodes that are cells
@@ -39,9 +39,9 @@ def _next_node(at, paths):
 
 @HELPER
 def _next_place(at, paths):
-    """Return the cell or destination that the robot in a cell goes to, past a lattice vertex or not."""
+    """Return the cell or destination that the robot in a cell goes to, past a lattice vertex or a gate or not."""
     head = _next_node(at, paths)
-    if paths.cell_count <= head % len(paths.out) < paths.first_goal:
+    while paths.cell_count <= head % len(paths.out) < paths.first_goal:
         head = _next_node(head, paths)
     return head
 

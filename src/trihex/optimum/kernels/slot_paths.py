@@ -6,6 +6,9 @@ from trihex.optimum.kernels.residual import OFFSET, OTHER, OWN, PLACE
 from trihex.optimum.kernels.slots import AT, ENTRY, FROM, NOBODY, NODE, TRIED, VIA
 from trihex.optimum.kernels.words import FLOW, SETTLED
 
+# In place of an arc that leaves: the robot has no way on yet and is as late as can be.
+PARKED = 14
+
 
 @HELPER
 def _settle(at, node, graph, words):
@@ -38,7 +41,7 @@ def settle_slot(slot, goal, graph, words):
 def _give_up(at, node, graph, words):
     """Take the further path from a node away."""
     i = arc_out(words[at])
-    while True:
+    while i != PARKED:
         at, node = at + graph.out[node, i, OFFSET], graph.out[node, i, OTHER]
         if node >= graph.first_goal:
             words[at] -= 1

@@ -32,7 +32,8 @@ LIST = 5  # list under way: of nodes with so many turns so far and to come
 FIRST = 6  # first entry of the walk in depth under way
 ENTRY = 7  # its entry under way, or `NOBODY`; at the end the node that the late path comes to, by the arc `TRIED`
 BUDGET = 8  # nodes that may still be looked at
-STATE_SIZE = 9
+LAST = 9  # after this step it ends, whoever is not served
+STATE_SIZE = 10
 
 LOG = types.Array(types.uint32, 2, "C")
 

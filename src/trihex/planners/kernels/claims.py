@@ -9,7 +9,8 @@ from typing import NamedTuple
 import numpy as np
 from numba import types
 
-from trihex.kernels.signatures import HELPER, IN_I32, OUT_I32, OUT_I64, declared
+from trihex.kernels.doors import DOORS, has_doors, is_door_full
+from trihex.kernels.signatures import APART, HELPER, IN_I32, OUT_I32, OUT_I64, declared
 from trihex.planners.kernels.slots import SITES, SLOTS
 from trihex.planners.kernels.ways import WAYS, neighbour, vertex_of
 
@@ -20,6 +21,8 @@ NEVER = np.int64(1 << 30)
 # Ticks of a window: a vertex has a bit for each of them and, above, for as long as moves last that begin in it.
 WINDOW = 30
 _BITS = np.int64(40)
+# Ticks ahead for which it is kept how many enter a destination: more than any move lasts.
+AHEAD = np.int64(64)
 _U = np.uint64
 
 
@@ -39,6 +42,8 @@ class Claims(NamedTuple):
     left_until: OUT_I32  # of a site: the half tick until which somebody owns it who leaves it
     passed: OUT_I64  # of a vertex: the window in which somebody passed it last, above the bits of the ticks
     entered_until: OUT_I32  # of each destination as often as its capacity: until which half tick a robot enters it
+    let_in: OUT_I32  # of each destination, where there are doors, `AHEAD` counts of robots that enter in a tick
+    let_in_at: OUT_I32  # in which tick that is: tick t has place t % AHEAD
 
 
 class Stage(NamedTuple):
@@ -49,6 +54,7 @@ class Stage(NamedTuple):
     sites: SITES
     slots: SLOTS
     claims: declared(Claims)
+    doors: DOORS
 
 
 CLOCK, CLAIMS, STAGE = declared(Clock), declared(Claims), declared(Stage)
@@ -93,6 +99,26 @@ def _place_at(number, stage):
 
 
 @HELPER
+def _count_at(number, tick):
+    """Return where it is kept how many enter a destination in a tick."""
+    return number * AHEAD + tick % AHEAD
+
+
+@APART
+def _tick_of_door(to, slot, begin, duration, stage):
+    """Return the first tick from `begin` on in which a move into a door can begin."""
+    claims = stage.claims
+    while True:
+        end, came = begin + duration, np.int64(0)
+        if slot < 0:
+            at = _count_at(-1 - slot, end)
+            came = np.int64(claims.let_in[at]) * (claims.let_in_at[at] == end)
+        if not is_door_full(to, end, came, stage.doors):
+            return begin
+        begin += 1
+
+
+@HELPER
 def tick_of_opening(site, k, to, slot, tick, stage):
     """Return the tick at which a robot at `site` can begin to move in direction `k`, `NEVER` if nobody knows.
 
@@ -118,6 +144,8 @@ def tick_of_opening(site, k, to, slot, tick, stage):
                 ticks >>= 1
                 free += 1
             ready = max(ready, free)
+    if has_doors(stage.doors) and stage.doors.number[_U(to)]:
+        ready = _tick_of_door(to, slot, ready, duration, stage)
     return ready
 
 
@@ -136,6 +164,11 @@ def claim(robot, site, k, slot, tick, stage):
         claims.owner[_U(neighbour(site, k, stage.ways))] = robot
     elif stage.ways.entry_limit:
         claims.entered_until[_U(_place_at(-1 - slot, stage))] = 2 * (tick + duration)
+    if slot < 0 and has_doors(stage.doors):
+        end = tick + duration
+        at = _count_at(-1 - slot, end)
+        claims.let_in[at] = claims.let_in[at] * (claims.let_in_at[at] == end) + 1
+        claims.let_in_at[at] = end
     if k >= stage.ways.first_vertex_move:
         vertex, window = vertex_of(site, k, stage.ways), tick // WINDOW
         ticks = _ticks_passed(vertex, window, claims) | ((1 << duration) - 1) << (tick - window * WINDOW)

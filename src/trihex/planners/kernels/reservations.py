@@ -12,6 +12,7 @@ import numpy as np
 from numba import types
 
 from trihex.kernels.codes import WAIT
+from trihex.kernels.doors import DOORS, has_doors, is_door_full
 from trihex.kernels.signatures import (
     APART,
     HELPER,
@@ -54,6 +55,8 @@ class Reserved(NamedTuple):
     number: IN_I32  # of a destination, by site: its place in a row of `entries`
     ends: types.int64  # how many destinations a row of `entries` has
     capacity: types.int64  # how many may enter one destination in a step, 0 for any number
+    let_in: OUT_I32  # for each step (tick) all destinations: how many have entered (empty where there are no doors)
+    doors: DOORS
 
 
 TERRAIN, RESERVED = declared(Terrain), declared(Reserved)
@@ -66,6 +69,24 @@ def _are_free(site, first, last, terrain, reserved):
     while row < end and reserved.site[row * len(terrain.distance) + site] == 0:
         row += 1
     return row >= end
+
+
+@HELPER
+def _is_door_shut(target, end, terrain, reserved):
+    """Tell whether a door lets nobody in in step (tick) `end`, or as many as it lets in have come."""
+    if not has_doors(reserved.doors):
+        return False
+    came, place = np.int64(0), end * reserved.ends + reserved.number[target]
+    if terrain.distance[target] == 0 and place < len(reserved.let_in):
+        came = np.int64(reserved.let_in[place])
+    return is_door_full(target, end, came, reserved.doors)
+
+
+@HELPER
+def _note_door(target, end, change, terrain, reserved):
+    """Note how many more robots enter a destination in step (tick) `end`."""
+    if has_doors(reserved.doors) and terrain.distance[target] == 0:
+        reserved.let_in[end * reserved.ends + reserved.number[target]] += change
 
 
 @HELPER
@@ -111,6 +132,8 @@ def _may_own(site, k, begin, terrain, reserved):
 @HELPER
 def is_open(site, k, begin, terrain, reserved):
     """Tell whether a robot may leave `site` by direction `k` after step `begin`."""
+    if _is_door_shut(site + terrain.offset[site & 1, k], begin + terrain.duration[k], terrain, reserved):
+        return False
     if reserved.per_tick:
         return _may_own(site, k, begin, terrain, reserved)
     if begin + 1 >= reserved.rows:
@@ -171,6 +194,13 @@ def _own(site, k, begin, terrain, reserved):
             reserved.entries[row * reserved.ends + reserved.number[target]] += 1
 
 
+@kernel(types.void(types.int64, types.int64, RESERVED, types.int64))
+def hold(site, last, reserved, size):
+    """Reserve a site up to the row `last`, which the tables have; each of their rows has so many sites."""
+    for row in range(last + 1):
+        reserved.site[row * size + site] = WAIT
+
+
 @kernel(types.void(types.int64, IN_U8, TERRAIN, RESERVED))
 def reserve_ticks(start, actions, terrain, reserved):
     """Reserve a way where moves last, or nobody follows at once. The tables have rows for each of its ticks."""
@@ -181,6 +211,7 @@ def reserve_ticks(start, actions, terrain, reserved):
             _own(site, k, tick, terrain, reserved)
             tick += terrain.duration[k]
             site += terrain.offset[site & 1, k]
+            _note_door(site, tick, 1, terrain, reserved)
             continue
         for row in range(tick * reserved.per_tick, (tick + 1) * reserved.per_tick):
             reserved.site[row * len(terrain.distance) + site] = WAIT
@@ -202,6 +233,7 @@ def reserve(start, actions, terrain, reserved):
         if k >= terrain.first_vertex_move:
             reserved.vertex[step * size + site + terrain.vertex[site & 1, k]] = 1
         site += terrain.offset[site & 1, k]
+        _note_door(site, step, 1, terrain, reserved)
         if terrain.distance[site] > 0:
             reserved.site[step * size + site] = 1 + k
         elif reserved.capacity > 0:
@@ -221,6 +253,7 @@ def unreserve(start, actions, terrain, reserved):
             if k >= terrain.first_vertex_move:
                 reserved.vertex[row + site + terrain.vertex[site & 1, k]] = 0
             site += terrain.offset[site & 1, k]
+            _note_door(site, i + 1, -1, terrain, reserved)
         if terrain.distance[site] > 0:
             reserved.site[row + site] = 0
         elif reserved.capacity > 0:

@@ -84,12 +84,12 @@ def _trace(first, last, layers, actions):
     return key
 
 
-@kernel(types.int64(types.int64, types.int64, TERRAIN, RESERVED, TABLE_I32, LAYERS, OUT_U8))
-def straighten_way(start, most, terrain, reserved, turn, layers, actions):
+@kernel(types.int64(types.int64, types.int64, types.int64, TERRAIN, RESERVED, TABLE_I32, LAYERS, OUT_U8))
+def straighten_way(start, start_time, most, terrain, reserved, turn, layers, actions):
     """Fill `actions` with the straightest of the cheapest ways that arrive with the last of them, and return its key.
 
-    No way costs more than `most`. `turn` is by how much a robot turns from one heading to another. Returns `LIST_FULL`
-    if there are more states than room.
+    No way costs more than `most` or leaves before the start time. `turn` is by how much a robot turns from one heading
+    to another. Returns `LIST_FULL` if there are more states than room.
     """
     headings = len(turn)
     layers.state[0], layers.key[0], layers.parent[0] = start * headings + headings - 1, 0, -1
@@ -100,6 +100,10 @@ def straighten_way(start, most, terrain, reserved, turn, layers, actions):
         for node in range(first, last):
             if count + len(terrain.cost) + 1 > len(layers.state):
                 break
+            if step <= start_time:
+                paid = layers.key[node] + (np.int64(terrain.waiting_cost) << COST_BIT)
+                count = _reach(np.int64(layers.state[node]), paid, node, np.int64(WAIT), count, layers)
+                continue
             count = _leave(node, step, steps, most, turn, terrain, reserved, layers, count)
         is_full = count + len(terrain.cost) + 1 > len(layers.state)
         for node in range(last, count):

@@ -13,8 +13,10 @@ import { Growing } from "./growing.js";
 import { Hand } from "./hand.js";
 import { History } from "./history.js";
 import { Keys } from "./keys.js";
+import { Layers } from "./layers.js";
 import { LivePanel } from "./livepanel.js";
 import { Opening } from "./opening.js";
+import { Owners } from "./owners.js";
 import { Panel, layOut } from "./panel.js";
 import { Planning } from "./planning.js";
 import { Questions } from "./questions.js";
@@ -27,7 +29,7 @@ import { Stage } from "./stage.js";
 import { Status } from "./status.js";
 import { Theme } from "./theme.js";
 import { Tools } from "./tools.js";
-import { undergroundOf } from "./underground.js";
+import { groundFor, undergroundOf } from "./underground.js";
 
 export class App {
   constructor(root, settings, host, first) {
@@ -44,7 +46,18 @@ export class App {
     this.theme.apply();
     this.tools.choose(this.canEdit ? "wall" : "move");
     if (first) this.take(first);
-    else this.make(this.draws.begin()).then(() => this.guide.offer());
+    else this.make(this.#begin());
+    if (this.canEdit) this.ready("").then(() => this.questions.prepare());
+  }
+
+  // What the host has to show first; without that an area to play with.
+  async #begin() {
+    const { settings, status } = this, request = { op: "first" };
+    const answer = settings.first ? await this.ask(request, {}, "Opening…") : null;
+    if (answer) return this.take(answer, { isEdit: false });
+    const why = status.isWarning ? status.text : "";
+    await this.draws.begin();
+    return why ? this.say(why, true) : this.guide.offer();
   }
 
   #makeParts() {
@@ -57,6 +70,8 @@ export class App {
     this.field = new Field(this);
     this.growing = new Growing(this);
     this.followed = new Followed(this);
+    this.layers = new Layers(this);
+    this.owners = new Owners(this);
     this.results = new Results(this);
     this.readout = new Readout(this);
     this.stage = new Stage(this);
@@ -115,7 +130,7 @@ export class App {
   // Until the document is there that is being made.
   async ready(what) {
     while (this.making) {
-      this.say(`${what} as soon as the area and its robots are there.`);
+      if (what) this.say(`${what} as soon as the area and its robots are there.`);
       await this.making;
     }
   }
@@ -137,7 +152,7 @@ export class App {
   // Take an answer of the host: a document, and the plan for it if there is one.
   take({ header, arrays }, { isEdit = true } = {}) {
     const plain = documentOf(header.document, arrays);
-    const doc = { ...plain, ground: undergroundOf(header, arrays, plain.barriers) };
+    const doc = { ...plain, ground: undergroundOf(header, arrays, plain.barriers) ?? groundFor(plain, this.doc) };
     const run = header.summary ? runOf({ header, arrays }, doc) : null;
     // A file may hold the plan beside it as well.
     const beside = arrays.beside ? runOf(decode(arrays.beside.slice())) : null;
@@ -190,7 +205,8 @@ export class App {
   // ---- what is shown
 
   refresh() {
-    for (const part of [this.bar, this.tools, this.rules, this.draws, this.growing, this.planning]) part?.show();
+    const { bar, tools, rules, draws, growing, planning, layers, owners } = this;
+    for (const part of [bar, tools, rules, draws, growing, planning, layers, owners]) part?.show();
     this.#sayNext();
     this.livePanel?.show();
     this.stage.show();

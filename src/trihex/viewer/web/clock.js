@@ -32,6 +32,9 @@ export class Clock {
     this.setSpeed(6);
   }
 
+  // How many steps a move over an edge lasts: where moves last, speeds are of such moves, not of ticks.
+  get pace() { return this.app.live?.pace ?? this.app.runs[0]?.playback.pace ?? 1; }
+  get #word() { return this.pace > 1 ? "tick" : "step"; }
   get step() { return Math.floor(this.at); }
 
   setSpeed(speed) {
@@ -91,7 +94,7 @@ export class Clock {
   tick(passed) {
     const { app } = this;
     if (!this.isPlaying) return;
-    this.at = Math.min(app.steps, this.at + passed * this.stepsPerSecond);
+    this.at = Math.min(app.steps, this.at + passed * this.stepsPerSecond * this.pace);
     if (this.at >= app.steps) {
       this.isPlaying = false;
       app.say(app.runs[0]?.playback.worlds ? "The run is over." : "The last robot has arrived.");
@@ -104,13 +107,13 @@ export class Clock {
     this.scrubber.max = steps;
     this.scrubber.value = this.at;
     this.scrubber.disabled = !runs[0];
-    this.scrubber.setAttribute("aria-valuetext", `step ${this.step} of ${steps}`);
+    this.scrubber.setAttribute("aria-valuetext", `${this.#word} ${this.step} of ${steps}`);
     this.playButton.disabled = !runs[0] && !live;
     this.playButton.classList.toggle("primary", !this.playButton.disabled);
     this.playButton.textContent = this.isPlaying || live?.isPlaying ? "Pause" : "Play";
-    if (live) this.text.textContent = `step ${number(steps)} · ${minutes(live.seconds)} live`;
+    if (live) this.text.textContent = `${this.#word} ${number(steps)} · ${minutes(live.seconds)} live`;
     else if (!runs[0]) this.text.textContent = "no plan";
-    else this.text.textContent = `step ${number(this.step)} / ${number(steps)}${this.#seconds}`;
+    else this.text.textContent = `${this.#word} ${number(this.step)} / ${number(steps)}${this.#seconds}`;
     this.#showStep(runs.filter(Boolean));
   }
 

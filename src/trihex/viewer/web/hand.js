@@ -18,7 +18,8 @@ export class Hand {
   }
 
   #listen(canvas, i) {
-    const on = (name, does) => canvas.addEventListener(name, does, { passive: false });
+    const act = (does) => (event) => { if (this.app.panes[i].doc) does(event); }; // there may be nothing yet
+    const on = (name, does) => canvas.addEventListener(name, act(does), { passive: false });
     on("pointerdown", (event) => this.#down(event, i));
     on("pointermove", (event) => this.#move(event, i));
     on("pointerup", (event) => this.#up(event, i));

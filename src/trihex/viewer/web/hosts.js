@@ -46,9 +46,10 @@ export class HttpHost {
 export class SiteHost extends HttpHost {
   get canEdit() { return false; }
 
-  async request({ op, plan, planner, tessellation, document }, arrays, signal) {
+  async request({ op, plan, planner, layer, tessellation, document }, arrays, signal) {
     const shape = tessellation ?? document?.tessellation;
-    const name = { bound: `bound-${plan}`, plan: `plan-${planner}-${shape}` }[op] ?? op;
+    const names = { bound: `bound-${plan}`, plan: `plan-${planner}-${shape}`, layer: `layer-${layer}-${plan}` };
+    const name = names[op] ?? op;
     const response = await fetch(`answers/${name}.bin`, { signal });
     return response.ok ? response : new Response("This page does not hold that; trihex view does.", { status: 404 });
   }

@@ -77,6 +77,7 @@ export class Keys {
 
   #onCanvas(event, i) {
     const { app } = this, pane = app.panes[i], { cursor } = pane, step = ARROWS[event.key];
+    if (!pane.doc) return;
     if (step) {
       event.preventDefault();
       return this.setCursor(this.#moved(pane, step, event.shiftKey ? 10 : 1), i);

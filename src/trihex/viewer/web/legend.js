@@ -2,6 +2,7 @@
 
 import { h, number } from "./words.js";
 import { css } from "./colours.js";
+import { amount } from "./layers.js";
 import { STRANDED } from "./playback.js";
 
 const TO_GO = "The least cost of a way to a destination, in time units, for a robot that nobody is in the way of.";
@@ -37,6 +38,7 @@ export class Legend {
       entries.push(["moving", "moving"], ["waiting", "waiting"], ["final", "arriving"]);
       if (run.summary.delays) entries.push(["late", "late"]);
     } else if (doc.robots.length) entries.push(["moving", "robot"]);
+    if (this.app.panes[0].owns) entries.push(["moving", "owned by a robot", "cell owned"]);
     const isStranded = run?.summary.unreachable || stage.still?.robots.state.includes(STRANDED);
     if (!live && (isStranded || run?.summary.broken)) entries.push(["stranded", "cannot arrive"]);
     if (values && field.hasUnreached(values)) entries.push(["unreached", "not reached", "cell"]);
@@ -44,10 +46,15 @@ export class Legend {
   }
 
   #ramp(palette) {
-    const [pane] = this.app.panes;
-    if (!pane.values) return [];
-    const ramp = h("i", { class: "ramp" }), shades = [0, 64, 128, 192, 255].map((i) => css(palette.distance[i]));
-    ramp.style.background = `linear-gradient(to right, ${shades.join(",")})`;
-    return [h("span", { title: TO_GO }, "0 ", ramp, ` ${number(pane.options.most)} to go`)];
+    const { panes, runs, layers } = this.app, [pane] = panes;
+    const layer = pane.layer ?? (runs[1] ? panes[1].layer : null); // only the best plan has prices
+    const scale = (shades, words, hint) => {
+      const ramp = h("i", { class: "ramp" });
+      const stops = [0, 64, 128, 192, 255].map((i) => css(shades[i]));
+      ramp.style.background = `linear-gradient(to right, ${stops.join(",")})`;
+      return [h("span", { title: hint }, "0 ", ramp, ` ${words}`)];
+    };
+    if (layer) return scale(palette.visits, `${amount(layer.most)} ${layer.unit}`, layers.hint);
+    return pane.values ? scale(palette.distance, `${number(pane.options.most)} to go`, TO_GO) : [];
   }
 }

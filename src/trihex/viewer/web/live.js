@@ -23,6 +23,7 @@ export class Live {
     this.name = answer.header.live;
     this.hasLate = delays > 0; // whether some robots are late now and then
     this.seconds = 0; // that it has run
+    this.pace = answer.header.pace; // how many steps a move over an edge lasts
     this.doc = { ...doc, barriers: new Uint8Array(cells) };
     this.runners = new Runners();
     this.world = new Uint8Array(cells); // of each cell, what the page knows: bits as above
@@ -52,7 +53,7 @@ export class Live {
 
   // Let some seconds pass, and tell whether there will be more to see.
   tick(passed) {
-    const speed = this.app.clock.stepsPerSecond, length = this.stride / speed;
+    const speed = this.app.clock.stepsPerSecond * this.pace, length = this.stride / speed;
     this.fraction = Math.min(1, this.fraction + passed / length);
     if (this.isPlaying && !this.last.is_over) this.seconds += passed;
     if (this.fraction >= 1) this.runners.settle();
@@ -107,7 +108,7 @@ export class Live {
     for (let i = 0; i < farther.length; i++) this.distance[farther[i]] = distance[i];
     if (farther.length) this.app.field.forget();
     if (cells.length) this.#adoptWorld(cells, world);
-    this.runners.move(this.doc, arrays.cells, arrays.sets, isStep ? header.step - this.shownStep : 0);
+    this.runners.move(this.doc, arrays, isStep ? header.step - this.shownStep : 0);
     this.doc = { ...this.doc, robots: this.runners.places() };
     if (isStep) this.#adoptStep(header, arrays.sets);
     this.app.replace(this.doc);

@@ -44,7 +44,9 @@ export class Opening {
 
   // Ask which file to open.
   async open() {
-    const { app } = this, answer = await app.ask({ op: "files" }, {});
+    const { app } = this;
+    await app.ready("Files are opened");
+    const answer = await app.ask({ op: "files" }, {});
     if (!answer) return;
     const reading = new Reading(app.settings.tessellations), { files, folder } = answer.header;
     const upload = h("input", { type: "file", "aria-label": "A file of this computer",

@@ -4,6 +4,7 @@ import { NOT_REACHED, shapeOf, centreOf } from "./documents.js";
 import { DARK, LIGHT, between, packed, mix } from "./colours.js";
 import { darkenBarriers, drawGround } from "./ground.js";
 import { drawMarks } from "./marks.js";
+import { plotOwned } from "./owners.js";
 import { plotRobots } from "./robots.js";
 import { drawScaleBar } from "./scalebar.js";
 import { drawUnderground } from "./underground.js";
@@ -32,6 +33,8 @@ export class Pane {
     this.doc = null;
     this.robots = null;
     this.values = null; // distance of each cell, or null for no field
+    this.layer = null; // a map over the cells: values, most; or null
+    this.owns = false; // whether the cells that robots own are drawn
     this.directions = null;
     this.options = {}; // dark, growing, most (distance), arrows, numbers, steps (of directions)
     this.follow = -1;
@@ -148,6 +151,7 @@ export class Pane {
     const { options: { dark }, robots } = this, isPale = robots?.count > 0, key = `${dark} ${isPale}`;
     if (this.colouring?.key === key) return this.colouring.palette;
     const plain = { ...this.colours, ...(dark ? DARK : LIGHT) }, { free } = plain;
+    if (dark) plain.visits = [...plain.visits].reverse(); // what is most is always farthest from the ground
     const pale = (shade) => between(shade, free, dark ? 0.6 : 0.5);
     const palette = isPale ? { ...plain, distance: plain.distance.map(pale) } : plain;
     this.colouring = { key, palette };
@@ -174,9 +178,18 @@ export class Pane {
     }
     const barrier = packed(palette.barrier), destination = packed(palette.destination);
     for (let cell = 0; cell < colour.length; cell++) if (doc.barriers[cell]) colour[cell] = barrier;
+    if (this.layer) this.#overlay(colour, palette);
     if (this.known) this.#fog(colour, palette);
     for (const cell of doc.destinations) colour[cell] = destination;
     return (this.colourOfCell = colour);
+  }
+
+  // A map tells nothing of cells where it is 0.
+  #overlay(colour, palette) {
+    const { values, most } = this.layer, ramp = Uint32Array.from(palette.visits, packed), factor = 255 / (most || 1);
+    for (let cell = 0; cell < colour.length; cell++) {
+      if (values[cell] > 0) colour[cell] = ramp[Math.min(255, Math.round(values[cell] * factor))];
+    }
   }
 
   // What no robot has seen lies under fog; a field shines through it.
@@ -204,6 +217,7 @@ export class Pane {
     if (!this.doc || !this.frame) return;
     if (this.isStale.base || this.isStale.map) this.#drawBase();
     this.frame32.set(this.base32);
+    if (this.owns && this.robots) plotOwned(this, fraction);
     if (this.robots) plotRobots(this, fraction);
     this.context.putImageData(this.frame, 0, 0);
     drawMarks(this, fraction);

@@ -31,6 +31,8 @@ export class Still {
     this.bx = this.by = new Float32Array(n);
   }
   seek() {}
+  held() { return -1; }
+  alsoHeld() { return -1; }
 }
 
 // Robots of a plan between `step` and the next: from (x0, y0) to (x1, y1), how far the corner that it
@@ -54,6 +56,8 @@ export class Playback {
     const { origin, pitch, offsets, durations } = header.layout;
     this.duration = new Int32Array(256).fill(1); // of actions, by their bytes
     this.duration.set(durations);
+    this.follows = doc.header.following !== "forbid";
+    this.pace = Math.min(...durations);
     this.hasSteps = durations.every((duration) => duration === 1);
     this.offsets = offsets.map((row) => Int32Array.from(row));
     const siteOf = (cell) => origin + Math.floor(cell / doc.width) * pitch + (cell % doc.width);
@@ -118,6 +122,26 @@ export class Playback {
     if (cutOffSince[r] >= 0 && cutOffSince[r] <= step) return STRANDED;
     if (hasArrived[r] && i + 1 === first[r + 1]) return FINAL;
     return actions[i] === LATE ? LATE_SET : actions[i] === WAIT ? WAITING : MOVING;
+  }
+
+  // The cell that a robot owns, -1 for none: where others follow, the one that it leaves for half of its move, then the
+  // one that it enters; destinations are nobody's.
+  held(r, fraction) {
+    const { site, next, step, begun, duration, actions, index, follows } = this;
+    if (next[r] === site[r] || !follows) return this.#cellOf(site[r]);
+    if ((step + fraction - begun[r]) * 2 < duration[actions[index[r]]]) return this.#cellOf(site[r]);
+    return this.state[r] === FINAL ? -1 : this.#cellOf(next[r]);
+  }
+
+  // And the one that it enters, where nobody follows.
+  alsoHeld(r) {
+    const { site, next, follows, state } = this;
+    return follows || next[r] === site[r] || state[r] === FINAL ? -1 : this.#cellOf(next[r]);
+  }
+
+  #cellOf(site) {
+    const { origin, pitch } = this.header.layout, y = Math.floor((site - origin) / pitch);
+    return y * this.doc.width + (site - origin - y * pitch);
   }
 
   // Cut from the whole ways what robots do of them from this step to the next.
@@ -201,14 +225,10 @@ export class Playback {
 
   // Cells and times of one robot, from its start to its last action.
   robot(r) {
-    const { origin, pitch, costs, names } = this.header.layout;
-    const wait = this.header.summary.waiting_cost;
-    const cellOf = (site) => {
-      const y = Math.floor((site - origin) / pitch);
-      return y * this.doc.width + (site - origin - y * pitch);
-    };
+    const { costs, names } = this.header.layout, wait = this.header.summary.waiting_cost;
     let site = this.kept[0].site[r], d = 0, w = 0, step = this.joined[r];
-    const rows = [{ step: 0, cell: cellOf(site), d, w, action: "start" }]; // before it joins it stands where it will
+    // Before it joins it stands where it will.
+    const rows = [{ step: 0, cell: this.#cellOf(site), d, w, action: "start" }];
     for (let i = this.first[r]; i < this.first[r + 1]; i++) {
       const action = this.actions[i], parity = site & 1;
       if (action === WAIT || action === LATE) w += wait;
@@ -219,7 +239,7 @@ export class Playback {
       }
       const name = { [WAIT]: "wait", [JUMP]: "jump", [LATE]: "late" }[action] ?? names[parity][action];
       step += this.duration[action];
-      rows.push({ step, cell: cellOf(site), d, w, action: name });
+      rows.push({ step, cell: this.#cellOf(site), d, w, action: name });
     }
     return { rows, hasArrived: !!this.hasArrived[r] };
   }

@@ -2,6 +2,7 @@
 
 import { h, number } from "./words.js";
 import { NOT_REACHED, centreOf, shapeOf } from "./documents.js";
+import { ownerOf } from "./owners.js";
 import { nameOfCell, nameOfRobot } from "./names.js";
 
 // Where the centre of a cell lies in the world.
@@ -26,9 +27,17 @@ export class Readout {
       this.element.removeAttribute("data-cell");
       return;
     }
-    const words = [...this.#there(doc, cell), ...this.#ahead(doc, i, cell)];
+    const layer = this.app.panes[i].layer ? this.app.layers.wordsOf(this.app.runs[i], cell) : "";
+    const more = [this.#ownerIn(this.app.panes[i], cell), layer].filter(Boolean);
+    const words = [...this.#there(doc, cell), ...more, ...this.#ahead(doc, i, cell)];
     this.element.textContent = words.join(" · ");
     this.element.dataset.cell = cell;
+  }
+
+  // Who owns a cell, where that is told.
+  #ownerIn(pane, cell) {
+    const robot = pane.owns && pane.robots ? ownerOf(pane, cell, this.app.fraction) : -1;
+    return robot < 0 ? "" : `owned by ${nameOfRobot(robot, pane.robots.count)}`;
   }
 
   #there(doc, cell) {

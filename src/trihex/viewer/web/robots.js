@@ -41,7 +41,7 @@ function plotDots(pane, fraction, side) {
     const py = (y0[r] + (y1[r] - y0[r]) * fraction + by[r] * bow) * scale + shiftY;
     return px >= 1 && py >= 1 && px < right && py < bottom ? (py | 0) * width + (px | 0) : -1;
   };
-  if (pane.values) { // on the blues of a field the dots need a rim
+  if (pane.values || pane.layer) { // on the colours of a field the dots need a rim
     const rim = rimOf(pane);
     for (let r = 0; r < count; r++) {
       const p = state[r] === HIDDEN ? -1 : place(r) - width;

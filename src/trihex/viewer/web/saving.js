@@ -34,7 +34,8 @@ export class Saving {
   }
 
   // Ask what to save, and how.
-  open() {
+  async open() {
+    await this.app.ready("Files are saved");
     const { exports } = this, { live, runs: [run], settings, dialog } = this.app;
     const can = { draft: true, run: !!live?.last.step, plan: !!run?.plan };
     this.what.replaceChildren(...Object.entries(exports).map(([name, { needs }]) =>

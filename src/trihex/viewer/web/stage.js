@@ -133,8 +133,10 @@ export class Stage {
   #showFirst() {
     const { runs: [run], doc, fields, growth, live, field } = this.app, [pane] = this.panes;
     const distance = fields?.distance, values = growth ? growth.values : distance ?? null;
+    const layer = growth ? null : this.#layerOf(run);
     pane.take({
-      values: field.isShown && !run?.playback.worlds ? values : null, // the field of a run changes with its world
+      layer, // it takes the place of the field; the field of a run changes with its world
+      values: field.isShown && !layer && !run?.playback.worlds ? values : null,
       directions: growth ? null : fields?.directions ?? null,
       known: live?.known ?? null,
       world: null,
@@ -156,16 +158,22 @@ export class Stage {
     this.legend.show();
   }
 
+  // The map that is wanted of a plan, with colours for all plans alike.
+  #layerOf(run) {
+    const { layers } = this.app, layer = layers.of(run);
+    return layer && { ...layer, most: layers.most };
+  }
+
   #showBeside() {
     const { runs: [, run], field } = this.app, [, pane] = this.panes, { distance } = run.playback;
-    const isStill = field.isShown && !run.playback.worlds;
-    pane.take({ values: isStill ? distance : null, known: null, world: null });
+    const layer = this.#layerOf(run), isStill = field.isShown && !layer && !run.playback.worlds;
+    pane.take({ layer, values: isStill ? distance : null, known: null, world: null });
     this.#showPane(1, run, false, field.farthest(distance));
     pane.show(run.doc, run.playback);
   }
 
   #showPane(i, run, growing, most) {
-    const { doc: own, runs, settings, theme, field, followed: { robot }, results, canEdit } = this.app;
+    const { doc: own, runs, settings, theme, field, followed: { robot }, results, canEdit, owners } = this.app;
     const pane = this.panes[i];
     const doc = run ? run.doc : own, { tessellation, neighbourhood } = doc.header;
     const isThere = run && robot >= 0 && robot < run.playback.count;
@@ -176,6 +184,7 @@ export class Stage {
       track: isThere ? run.playback.robot(robot).rows.map(({ cell }) => cell) : null,
       paths: run && results.hasPaths ? run.playback.paths() : null,
       crosses: [],
+      owns: owners.areShown(doc),
     });
     const things = `${plural(doc.robots.length, "robot")}, ${plural(doc.destinations.length, "destination")}`;
     const area = `${title(tessellation)} area of ${doc.width} by ${doc.height} cells, ${things}`;

@@ -1,0 +1,148 @@
+"""`trihex prices`: what each wall and each door costs."""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from time import monotonic
+from typing import Any
+
+import click
+
+from trihex.cli.group import DONE, INTERRUPTED, NO
+from trihex.cli.options import PATH, area_options, complete, read_described, robot_options, rule_options
+from trihex.cli.outputs import check_outputs, tell_written
+from trihex.cli.progress import bar
+from trihex.cli.types import Metres, Name, Seconds
+
+_MOST_LINES = 5  # of walls and chokes that are named
+
+
+@click.command("prices")
+@click.argument("area", type=PATH)
+@area_options
+@rule_options
+@robot_options
+@click.option("--kind", type=Name("trihex.prices", "KINDS"), multiple=True, help="Only these; may be repeated.")
+@click.option("--limit-seconds", type=Seconds(), help="Then leave the rest unproven.")
+@click.option("--speed", type=Metres(), default=1.0, show_default=True, help="Of robots, in metres a second.")
+@click.option("--out", type=PATH, metavar="FILE", help="A row for each cell, as .csv.")
+@click.option("--picture", type=PATH, metavar="FILE", help="The prices drawn, as .png, .svg or .pdf.")
+def command(
+    area: Path,
+    kind: tuple[str, ...],
+    limit_seconds: float | None,
+    speed: float,
+    out: Path | None,
+    picture: Path | None,
+    **options: Any,
+) -> int:
+    """Tell what each wall and each door costs all robots together.
+
+    For each barrier: the time saved if it were open. For each choke, the cells of the narrowest places between robots
+    and destinations: the time lost if it were closed. And the best next door: the barrier that saves most if it becomes
+    a destination. All are proven, as differences of optima.
+
+    With --out what is found is kept in FILE.part until all is: interrupted at any moment, by --limit-seconds or by
+    Ctrl-C, the same command goes on. Prices that are not proven are at least what FILE says.
+
+    Exit status 1: some robots cannot arrive. The prices are those of the others.
+    """
+    from trihex.fields import make_n_scheme
+    from trihex.formats import PRICES_SUFFIXES, PricesJournal, write_prices
+    from trihex.pictures import PICTURE_SUFFIXES
+    from trihex.planners import make_plan
+    from trihex.prices import KINDS, make_prices
+
+    check_outputs((out, PRICES_SUFFIXES, "prices"), (picture, PICTURE_SUFFIXES, "a picture"))
+    scenario = complete(read_described(area, options), "optimal", "prices", *(["picture"] if picture else []))
+    n_scheme = make_n_scheme(scenario)
+    with bar("planning", "robots") as progress:
+        plan = make_plan(scenario, "optimal", n_scheme=n_scheme, progress=progress)
+    journal = None if out is None else PricesJournal(out.with_name(f"{out.name}.part"), plan)
+    work: dict[str, Any] = {"kinds": kind or KINDS, "n_scheme": n_scheme}
+    if journal is not None:
+        work |= {"known": journal.known, "tell": journal.note}
+    with _stopping(limit_seconds) as asked, bar("pricing", "cells") as progress:
+        prices = make_prices(plan, **work, stop=asked, progress=progress)
+    if out is not None:
+        write_prices(prices, out, speed=speed)
+    if journal is not None and prices.is_complete:
+        journal.remove()
+    if picture is not None:
+        from trihex.pictures import picture_of_prices
+
+        picture_of_prices(prices, speed=speed).save(picture)
+    click.echo("\n".join(price_lines(prices, speed)))
+    if not prices.is_complete:
+        more = "the same command goes on" if journal else "add --out to be able to go on"
+        click.echo(f"not proven: {int((~prices.proven).sum())} of {prices.cell.size} prices; {more}", err=True)
+    tell_written(out, picture)
+    if asked.is_interrupted:
+        return INTERRUPTED
+    return DONE if plan.arrived.all() else NO
+
+
+class _Stop:
+    """Whether the work is to stop: Ctrl-C was pressed, or the time is over."""
+
+    def __init__(self, limit_seconds: float | None) -> None:
+        self.is_interrupted = False
+        self._end = None if limit_seconds is None else monotonic() + limit_seconds
+
+    def __call__(self) -> bool:
+        return self.is_interrupted or (self._end is not None and monotonic() >= self._end)
+
+
+@contextmanager
+def _stopping(limit_seconds: float | None) -> Iterator[_Stop]:
+    """Yield what to ask whether to stop; the first Ctrl-C lets the work end well, a second ends it at once."""
+    asked = _Stop(limit_seconds)
+    before: Any = signal.getsignal(signal.SIGINT)
+
+    def interrupt(*_: Any) -> None:
+        asked.is_interrupted = True
+        signal.signal(signal.SIGINT, before)
+
+    signal.signal(signal.SIGINT, interrupt)
+    try:
+        yield asked
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def price_lines(prices: Any, speed: float = 1.0) -> list[str]:
+    """Return prices in a few lines: how many are something, and the greatest of them."""
+    plan, area = prices.plan, prices.plan.scenario.area
+    lines = [f"{area.name}: {plan.scenario.robot_count} robots, total time {plan.total_time}, which is the least"]
+    for kind, verb, what in (("barrier", "save", "to open"), ("choke", "cost", "to close")):
+        rows = (prices.kind == kind).nonzero()[0]
+        if not rows.size:
+            continue
+        dear = rows[prices.price[rows] > 0]
+        other, unknown = (
+            int((prices.robots[rows] != 0).sum()),
+            int((~prices.proven[rows] & (prices.price[rows] == 0)).sum()),
+        )
+        told = [f"{kind}s: {dear.size} {verb} time {what}, {rows.size - dear.size - other - unknown} {verb} nothing"]
+        told += [f"{other} change who can arrive"] if other else []
+        lines.append(", ".join([*told, *([f"{unknown} not known"] if unknown else [])]))
+        for row in sorted(dear, key=lambda row: (-prices.price[row], prices.cell[row]))[:_MOST_LINES]:
+            x, y = area.cell_to_xy(int(prices.cell[row]))
+            least = "" if prices.proven[row] else "at least "
+            lines.append(f"  {what} ({x}, {y}) {verb}s {least}{prices.told(int(prices.price[row]), speed)}")
+    return lines + _door_lines(prices, speed)
+
+
+def _door_lines(prices: Any, speed: float) -> list[str]:
+    """Return what is known of the best next door, in a line; none if it is not asked for, or nothing saves anything."""
+    rows = (prices.kind == "door").nonzero()[0]
+    if not rows.size:
+        return []
+    if prices.best_door is None:
+        return ["best next door: not known"]
+    told = prices.told(int(prices.price[rows[0]]), speed)
+    more = "" if prices.proven[rows[0]] else "; a better one is not ruled out"
+    return [f"best next door: {prices.best_door} saves {told}{more}"]

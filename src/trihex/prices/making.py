@@ -1,0 +1,215 @@
+"""How prices are found: what is bound to be nothing first, then what saves most, the best next door last."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from heapq import heapify, heappop, heappush
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from trihex.areas import cells_from
+from trihex.bounds import choke_cells
+from trihex.errors import PlanError, check_choice, check_type
+from trihex.fields import NScheme, make_n_scheme
+from trihex.optimum import Variations, check_equal_steps
+from trihex.plans import Plan
+from trihex.prices.afresh import AfreshVariations
+from trihex.prices.prices import KINDS, Prices
+
+
+def make_prices(
+    plan: Plan,
+    *,
+    kinds: Iterable[str] = KINDS,
+    cells: ArrayLike | None = None,
+    known: Mapping[tuple[str, int], int] | None = None,
+    tell: Callable[[str, int, int], None] | None = None,
+    stop: Callable[[], bool] | None = None,
+    progress: Callable[[int, int], None] | None = None,
+    n_scheme: NScheme | None = None,
+    memory_limit: int | None = None,
+) -> Prices:
+    """Tell what each wall and each door costs all robots together: proven, and equal to optima made afresh.
+
+    Where every step costs the same (hexagons; squares and triangles with edge neighbours; waiting like a move) slots
+    of the optimum at hand are exchanged anew, see docs/optimum.md; elsewhere the optimum is made afresh for each cell
+    for which the bounds do not tell that it saves nothing, which takes long.
+
+    Parameters
+    ----------
+    plan : Plan
+        One that is the best, whoever made it.
+    kinds : iterable of {"barrier", "choke", "door"}
+        What is priced.
+    cells : sequence of (x, y), or cell numbers, optional
+        Only these, barriers as barriers and doors, free cells as chokes. Default: all barriers, and the cells of the
+        narrowest places between robots and destinations.
+    known : mapping from (kind, cell) to price, optional
+        What `tell` was told before.
+    tell : callable, optional
+        Called with kind, cell and price when a price is proven that took some work.
+    stop : callable, optional
+        Asked between two cells; when it says True, the rest is left unproven.
+    progress : callable, optional
+        Called with (cells done with, cells).
+    n_scheme : NScheme, optional
+        That of the scenario, if it is at hand.
+    memory_limit : int, optional
+        In bytes. Default: 80 % of what is available.
+
+    Raises
+    ------
+    PlanError
+        If the plan is not the best, or optima cannot be had or proven by these rules.
+    TooLargeError
+        If that would take more than `memory_limit`.
+
+    Examples
+    --------
+    >>> import trihex as th
+    >>> area = th.Area("square", [[0, 1, 0], [0, 1, 0], [0, 0, 0]])
+    >>> area = th.Area(th.Tessellation("square", "edge"), area.barriers)
+    >>> plan = th.make_plan(th.Scenario(area, destinations=[(2, 0)], robots=[(0, 0), (0, 1)]), "optimal")
+    >>> prices = th.make_prices(plan)
+    >>> prices.price_of_cell("barrier").tolist()
+    [[-1, 60, -1], [-1, 40, -1], [-1, -1, -1]]
+    """
+    check_type("plan", plan, Plan)
+    kinds = (kinds,) if isinstance(kinds, str) else tuple(kinds)
+    for kind in kinds:
+        check_choice("kinds", kind, KINDS, PlanError)
+    area = plan.scenario.area
+    n_scheme = n_scheme if n_scheme is not None else make_n_scheme(plan.scenario)
+    if cells is None:
+        asked = np.union1d(np.flatnonzero(area.barriers), choke_cells(n_scheme))
+    else:
+        asked = np.unique(cells_from(area, cells, "cells", PlanError))
+    asked = np.setdiff1d(asked, plan.scenario.destinations)
+    work = _Pricing(*_variations(plan, n_scheme, memory_limit), known or {}, tell, stop, progress)
+    is_barrier = area.barriers.reshape(-1)[asked]
+    barriers, chokes = asked[is_barrier], asked[~is_barrier]
+    steps = (
+        ("barrier", barriers, work.price_barriers),
+        ("choke", chokes, work.price_chokes),
+        ("door", barriers, work.price_door),
+    )
+    work.total = sum(those.size for kind, those, _ in steps if kind in kinds)
+    for kind, those, price in steps:
+        if kind in kinds:
+            price(those)
+    columns = zip(*sorted(work.rows, key=lambda row: (KINDS.index(row[0]), row[1])), strict=True)
+    return Prices(plan, *(columns if work.rows else [()] * 5))
+
+
+def _variations(plan: Plan, n_scheme: NScheme, memory_limit: int | None) -> tuple[Any, AfreshVariations]:
+    """Return what tells of optima with one cell changed, and what bounds them."""
+    afresh = AfreshVariations(plan, n_scheme, memory_limit)
+    try:
+        check_equal_steps(plan.scenario)
+    except PlanError:
+        afresh.check(plan)
+        return afresh, afresh
+    return Variations(plan, n_scheme=n_scheme, memory_limit=memory_limit), afresh
+
+
+class _Pricing:
+    """Prices as they are found: rows of kind, cell, price, robots, whether it is proven."""
+
+    def __init__(
+        self,
+        variations: Any,
+        bounds: AfreshVariations,
+        known: Mapping[tuple[str, int], int],
+        tell: Callable[[str, int, int], None] | None,
+        stop: Callable[[], bool] | None,
+        progress: Callable[[int, int], None] | None,
+    ) -> None:
+        self.variations, self.bounds, self.known = variations, bounds, known
+        self.tell, self.stop, self.progress = tell, stop, progress
+        self.rows: list[tuple[str, int, int, int, bool]] = []
+        self.done = self.total = 0
+
+    def price_barriers(self, cells: NDArray[np.int64]) -> None:
+        """Price what would be open, first what saves most at least."""
+        cells = self._of_the_same_robots("barrier", cells)
+        least, most = self.variations.saved_bounds(cells, self._told)
+        for place in np.lexsort((cells, -most, -least)).tolist():
+            cell, bound = int(cells[place]), int(least[place])
+            if bound == most[place]:
+                self._add("barrier", cell, bound)
+            else:
+                self._price("barrier", cell, self.variations.saved_if_open, bound)
+
+    def price_chokes(self, cells: NDArray[np.int64]) -> None:
+        """Price what would be closed."""
+        for cell in self._of_the_same_robots("choke", cells).tolist():
+            self._price("choke", cell, self.variations.lost_if_closed)
+
+    def price_door(self, cells: NDArray[np.int64]) -> None:
+        """Find the barrier that saves most as a destination, in the order of what each saves at most."""
+        others = self.rows
+        self.rows = []
+        cells = self._of_the_same_robots("door", cells)
+        self.rows = [("door", -1, 0, 0, True)]  # of the best so far
+        most = self.variations.most_saved_by_doors(cells, self._told) * self.variations.unit
+        # Those that may save most come first, with a rough bound, then with a good one, then they are tried.
+        heap = [(-int(most[place]), int(cell), self.variations.is_quick) for place, cell in enumerate(cells.tolist())]
+        heapify(heap)
+        while heap and -heap[0][0] > self.rows[0][2]:
+            bound, cell, is_good = heappop(heap)
+            if not is_good and ("door", cell) not in self.known and not self._is_to_stop():
+                bound = max(bound, -int(self.bounds.most_saved_by_door(cell)))
+                heappush(heap, (bound, cell, True))
+                continue
+            self._price("door", cell, self.variations.saved_by_door)
+            row, best = self.rows.pop(), self.rows[0]
+            if not row[4]:
+                self.rows[0] = (*(best if best[1] >= 0 else row)[:4], False)
+                break
+            self.rows[0] = row if row[2] > best[2] else best
+        self._told(0, self.total)
+        self.rows = others + [row for row in self.rows if row[1] >= 0]
+
+    def _of_the_same_robots(self, kind: str, cells: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Return the cells that change nothing about who can arrive; tell of the others."""
+        variations = self.variations
+        if kind != "choke" and variations.all_arrive:
+            return cells
+        kept = []
+        for cell in cells.tolist():
+            robots = variations.robots_if_changed(cell) - variations.robot_count
+            if robots:
+                self._add(kind, cell, 0, robots)
+            else:
+                kept.append(cell)
+        return np.array(kept, dtype=np.int64)
+
+    def _price(self, kind: str, cell: int, find: Callable[[int], int], least: int = 0) -> None:
+        """Add the row of a cell that takes some work, unless it is known or the work is to stop."""
+        unit = self.variations.unit
+        price = self.known.get((kind, cell))
+        if price is not None:
+            self._add(kind, cell, price // unit)
+        elif self._is_to_stop():
+            self.rows.append((kind, cell, least * unit, 0, False))
+        else:
+            price = find(cell)
+            if self.tell:
+                self.tell(kind, cell, price * unit)
+            self._add(kind, cell, price)
+
+    def _is_to_stop(self) -> bool:
+        return self.stop is not None and self.stop()
+
+    def _add(self, kind: str, cell: int, price: int, robots: int = 0) -> None:
+        """Add a row that is proven; `price` is in units of the variations."""
+        self.rows.append((kind, cell, price * self.variations.unit, robots, True))
+        self._told(0, self.done + 1)
+
+    def _told(self, looked_at: int, done: int | None = None) -> None:
+        """Tell how many cells are done with; to look at them goes before, and is told of as well."""
+        self.done = self.done if done is None else done
+        if self.progress:
+            self.progress(self.done, self.total)
