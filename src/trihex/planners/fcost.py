@@ -102,11 +102,8 @@ def _run(n_scheme: NScheme, rule: str, keeps_actions: bool, progress: Progress |
 def _shared(d_scheme: DScheme, first: Recording, most_visits: int) -> tuple[Lanes, int] | None:
     """Return lanes within catchments, and what doors are said to cost; None where nobody had better go elsewhere."""
     scenario = d_scheme.n_scheme.scenario
-    if (
-        not scenario.is_stepwise
-        or scenario.waiting_cost == 0
-        or not 1 < scenario.destinations.size <= _MOST_DESTINATIONS
-    ):
+    is_told = scenario.moves_by_steps and scenario.waiting_cost > 0  # by arrivals, how many a door lets in
+    if not is_told or not 1 < scenario.destinations.size <= _MOST_DESTINATIONS:
         return None
     if first.lost <= _WORTH * first.total_time or doors_of(scenario).max() == 0:
         return None
