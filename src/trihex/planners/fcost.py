@@ -47,7 +47,8 @@ def plan_fcost(n_scheme: NScheme, *, rule: str = "best", progress: Progress | No
         robot that would wait may step to a cell no farther away if that costs no more. "aside": the same, and a blocked
         robot always steps to such a cell unless it has just left it. "lanes": the same, and V is not the least distance
         but that along lanes, as many as there is room for, see `trihex.planners.lanes`. "best": "aside" or greedy
-        descent, whichever takes less total time, and "lanes", too, where to look for them takes no longer than to plan.
+        descent, whichever takes less total time, and "lanes", too, where to look for them takes no longer than to plan;
+        with several doors also lanes within the catchment of each, see `trihex.planners.catchments`.
     progress : callable, optional
         Called with (robots arrived, robots that can arrive), of one rule after the other.
     """
