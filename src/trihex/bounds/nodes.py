@@ -89,7 +89,7 @@ class Nodes(Record):
         if not self.scenario.has_flows:
             return headway
         apart = np.where(nodes < size, self.doors_apart[np.where(nodes < size, nodes, 0)], 0)
-        return np.maximum(headway, np.repeat(apart, self.places(nodes)))
+        return np.asarray(np.maximum(headway, np.repeat(apart, self.places(nodes))))
 
     def headways(self, nodes: NDArray[np.integer]) -> NDArray[np.int64]:
         """Return how many ticks there are at least between two robots that pass one of `nodes`.
