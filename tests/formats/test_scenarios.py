@@ -108,7 +108,8 @@ rules.destination_capacity: must be a number of robots above 0: a step, such as 
 such as 1.6/s; not 0
 robots.random: must be a whole number, not 1.5
 planner: must be a table, not 'fcost'
-colour: there is no such key; keys are area, destinations, destinations_in_metres, rules, doors, robots, planner, outputs
+colour: there is no such key; keys are area, destinations, destinations_in_metres, rules, doors, robots, planner, \
+outputs
 area: must have only one of path, rows, not path and rows
 robots: must have only one of cells, metres, file, random, not cells and random
 """
