@@ -57,8 +57,8 @@ export class Draws {
     app.take(answer, { isEdit: false });
     app.set({ ...app.doc, destinations: Int32Array.of(middleOf(app.doc)) }, [null, null]);
     const robots = await this.#robots(FIRST_ROBOTS, FIRST_SEED);
-    const header = { ...app.doc.header, seed: FIRST_SEED, start_times: null };
-    if (robots) app.set({ ...app.doc, robots, header }, [null, null]);
+    const drawn = { seed: FIRST_SEED, start_times: null };
+    if (robots) app.set({ ...app.doc, robots, header: { ...app.doc.header, ...drawn } }, [null, null]);
   }
 
   async scatter() {
