@@ -10,13 +10,17 @@ from pathlib import Path
 
 import numpy as np
 
-WAIT = 255  # any other action is the number of a direction
-FAR = 1 << 50  # steps that nobody takes, above all sums of tolls
-MOST = 10**6  # of tolls, steps and robots in a destination; no sum below overflows
-# (dx, dy) of each direction in even and odd columns of hexagons, for triangles that point north and south.
-EVEN, ODD = ((0, -1), (1, -1), (1, 0), (0, 1), (-1, 0), (-1, -1)), ((0, -1), (1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0))
-NORTH, SOUTH, SQUARE = ((1, 0), (-1, 0), (0, 1)), ((1, 0), (-1, 0), (0, -1)), ((0, -1), (1, 0), (0, 1), (-1, 0))
-SHAPES = {"hexagonal": (EVEN, ODD), "square": (SQUARE, SQUARE), "triangular": (NORTH, SOUTH)}
+WAIT, MOST, FAR = 255, 10**6, 1 << 50  # MOST of tolls, costs, steps, robots; no sum overflows or comes near to FAR
+# (dx, dy) of each direction, across edges first, in even and odd columns, or where triangles point north and south. The
+# others pass a lattice vertex, CORNERS, that has the position of the first cell of AROUND, a circle of those around it.
+EVEN, ODD = [(0, -1), (1, -1), (1, 0), (0, 1), (-1, 0), (-1, -1)], [(0, -1), (1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0)]
+SQUARE = [(0, -1), (1, 0), (0, 1), (-1, 0), (1, -1), (1, 1), (-1, 1), (-1, -1)]
+NORTH = [(1, 0), (-1, 0), (0, 1), (2, 0), (-2, 0), (1, -1), (-1, -1), (1, 1), (-1, 1), (0, -1), (2, 1), (-2, 1)]
+STEPS = {"hexagonal": (EVEN, ODD), "square": (SQUARE, SQUARE), "triangular": (NORTH, [(x, -y) for x, y in NORTH])}
+SHARED = [(1, 1), (-1, 1), (0, 0), (0, 0), (1, 1), (-1, 1), (0, 0), (1, 1), (-1, 1)]
+CORNERS = {"square": [[(1, 0), (1, 1), (0, 1), (0, 0)]] * 2, "triangular": [SHARED, [(x, 1 - y) for x, y in SHARED]]}
+AROUND = [(0, 0), (-1, 0), (-1, -1), (0, -1), (1, -1), (1, 0)]  # the first four on squares
+PAST_VERTICES = {"hexagonal": [], "square": [1414] * 4, "triangular": [1732] * 6 + [2000] * 3}  # euclidean costs
 
 
 def demand(rule, message):
@@ -25,122 +29,118 @@ def demand(rule, message):
         raise ValueError(message)
 
 
-def read_barriers(path):
-    """Return the barriers of an area, True or False for each row and column."""
-    lines = Path(path).read_text().splitlines()
-    if lines[0].startswith("type"):  # a header of four lines
-        return np.array([[letter in "@OTW" for letter in line] for line in lines[4:] if line])
-    return np.array([[letter in "B#" for letter in line] for line in lines if line])
-
-
-def make_neighbours(barriers, shape):
-    """Return the neighbour of each cell in each direction and, last, itself; an extra cell, the last, for barriers."""
-    height, width = barriers.shape
+def make_moves(plan, shape, count, edges):
+    """Return by cell the targets of moves and, last, of waiting (a cell more: barriers), and vertices passed or -1."""
+    (height, width), walls = plan["barriers"].shape, np.pad(plan["barriers"], 3, constant_values=True)
     y, x = np.divmod(np.arange(height * width, dtype=np.int32), width)
     odd = (x if shape == "hexagonal" else x + y) % 2
-    rows = []
-    for even_step, odd_step in zip(*SHAPES[shape], strict=True):
-        dx, dy = (np.where(odd, odd_step[i], even_step[i]).astype(np.int32) for i in range(2))
-        inside = (x + dx >= 0) & (x + dx < width) & (y + dy >= 0) & (y + dy < height)
-        rows.append(np.where(inside, (y + dy) * width + x + dx, height * width))
-    table = np.full((len(rows) + 1, height * width + 1), height * width, dtype=np.int32)
-    table[:, :-1] = [*rows, y * width + x]
-    table[np.append(barriers.reshape(-1), True)[table]] = height * width
-    return table
+    target = np.full((count + 1, x.size + 1), x.size, dtype=np.int32)
+    target[-1, :-1] = np.where(plan["barriers"].reshape(-1), x.size, y * width + x)
+    via = np.full_like(target, -1) if count > edges else np.broadcast_to(np.int32(-1), target.shape)
+    for k, turned in ((k, turned) for k in range(count) for turned in range(2)):
+        dx, dy = step = STEPS[shape][turned][k]
+        own = np.flatnonzero((odd == turned) & ~walls[y + 3, x + 3] & ~walls[y + dy + 3, x + dx + 3])
+        if k >= edges:
+            vx, vy = CORNERS[shape][turned][k - edges]
+            ring = [(a + vx, b + vy) for a, b in AROUND[: 4 if shape == "square" else 6]]
+            i, j = sorted((ring.index((0, 0)), ring.index(step)))
+            free = np.array([~walls[y[own] + b + 3, x[own] + a + 3] for a, b in ring])
+            one, other = free[i + 1 : j].all(axis=0), free[:i].all(axis=0) & free[j + 1 :].all(axis=0)
+            own = own[one & other if plan["corners"] == "no-cut" else one | other | (plan["corners"] == "allow")]
+            via[k, own] = (y[own] + vy) * (width + 2) + x[own] + vx + 1
+        target[k, own] = (y[own] + dy) * width + x[own] + dx
+    return target, via
 
 
-def steps_to_destination(neighbours, goals):
-    """Return the least number of steps from each cell to a destination, `FAR` where there is no way."""
-    steps = np.full(neighbours.shape[1], FAR)
-    steps[goals] = 0
-    near = np.asarray(goals)
-    while near.size:  # moves can be made either way
-        found = np.unique(neighbours[:-1, near])
-        found = found[(steps[found] == FAR) & (found < steps.size - 1)]
-        steps[found] = steps[near[0]] + 1
-        near = found
-    return steps
+def cheapest(pays, target, cost, tolls):
+    """Return what robots pay at least for a step, the tolls of vertices, and what they pay after it."""
+    ways = zip(target, cost, tolls, strict=True)
+    return reduce(np.minimum, (pays[there] + (price + toll) for there, price, toll in ways))
 
 
-def replay(plan, neighbours, goals, hops):
-    """Return the sum of arrival steps; reject a plan in which robots do what they must not, or fail to arrive."""
+def replay(plan, target, via, cost, goals, can_arrive):
+    """Return the sum of costs; reject a plan in which robots do what they must not, or fail to arrive."""
     actions, first, cell = plan["actions"], plan["first_action"], plan["robots"].copy()
-    capacity, length = int(plan["destination_capacity"]), np.diff(first)
+    capacity, length, wait, total = int(plan["destination_capacity"]) or cell.size, np.diff(first), len(target) - 1, 0
     demand([one.dtype for one in (actions, first, cell)] == [np.uint8, np.int64, np.int64], "numbers must be whole")
     demand(first.size == cell.size + 1 and first[0] == 0 and first[-1] == actions.size, "actions must fit the robots")
     demand((length >= 0).all() and np.unique(cell).size == cell.size, "robots must start in cells of their own")
-    demand(((cell >= 0) & (neighbours[-1, cell] == cell)).all(), "robots must start in free cells")
-    is_goal = np.zeros(neighbours.shape[1], dtype=bool)
-    is_goal[goals] = True
-    demand(((length > 0) == (hops[cell] < FAR) & ~is_goal[cell]).all(), "just those must move who can arrive")
+    demand(((cell >= 0) & (target[-1, cell] == cell)).all(), "robots must start in free cells")
+    is_goal = np.isin(np.arange(target.shape[1]), goals)
+    demand(((length > 0) == can_arrive[cell] & ~is_goal[cell]).all(), "just those must move who can arrive")
     for step in range(1, int(length.max(initial=0)) + 1):
-        here = np.flatnonzero((length >= step) | (hops[cell] == FAR))  # the others have left
-        going = length[here] >= step
-        before, action = cell[here], np.full(here.size, WAIT)
+        here = np.flatnonzero((length >= step) | ~can_arrive[cell])  # the others have left
+        before, action, going = cell[here], np.full(here.size, wait), length[here] >= step
         action[going] = actions[first[here[going]] + step - 1]
-        demand(((action < len(neighbours) - 1) | (action == WAIT)).all(), "there must be such directions")
-        now = neighbours[np.where(action == WAIT, len(neighbours) - 1, action), before]
-        demand((now < is_goal.size - 1).all(), "robots must go to free cells")
-        cell[here] = now
+        demand(((action < wait) | (action == WAIT) | ~going).all(), "there must be such directions")
+        action = np.minimum(action, wait)
+        now, passed = target[action, before], via[action, before]
+        demand((now < is_goal.size - 1).all(), "robots must go to free cells, and no way that is closed")
+        cell[here], total = now, total + int(cost[action[going]].sum())
         arrives = is_goal[now]
         demand((arrives == (length[here] == step)).all(), "robots must leave in a destination, with their last action")
         demand(np.bincount(now[~arrives], minlength=1).max() <= 1, "a cell must hold one robot")
-        if capacity:
-            demand(np.bincount(now[arrives], minlength=1).max() <= capacity, "a destination takes only so many")
-        was_at = np.full(is_goal.size, -1)
-        was_at[before] = np.arange(here.size)
-        other = was_at[now]
-        swapped = (other >= 0) & (now != before) & (now[other] == before)
-        demand(not swapped.any(), "robots must not exchange cells")
-    return int(length.sum())
+        demand(plan["crossing"] == "allow" or np.bincount(passed + 1)[1:].max(initial=0) <= 1, "robots must not cross")
+        demand(np.bincount(now[arrives], minlength=1).max() <= capacity, "a destination takes only so many")
+        ways = np.minimum(before, now).astype(np.int64) * is_goal.size + np.maximum(before, now)
+        demand(np.unique(ways).size == ways.size, "robots must not exchange cells")
+    return total
 
 
-def proven_steps(tolls, plan, neighbours, goals, hops):
-    """Return what no plan can be below: the least that each robot pays in steps and tolls, less all tolls there are."""
-    x, y, step, toll = tolls.T
-    height, width = plan["barriers"].shape
-    demand(((x >= 0) & (x < width) & (y >= 0) & (y < height)).all(), "tolls must lie in the area")
-    cell = y * width + x
-    last, capacity = int(np.diff(plan["first_action"]).max(initial=0)), int(plan["destination_capacity"])
-    demand(last <= MOST and ((step >= 1) & (step <= last)).all(), f"steps must be those of the plan, up to {MOST}")
+def proven(path, plan, target, via, cost, goals, pays):
+    """Return what no plan can be below: the least that each robot pays, tolls included, less all tolls there are."""
+    header, *lines = Path(path).read_text().splitlines()
+    demand(header == "place,x,y,step,toll", "a certificate must have the columns place,x,y,step,toll")
+    rows = [[("cell", "vertex").index(place), *map(int, rest)] for place, *rest in (line.split(",") for line in lines)]
+    is_vertex, x, y, step, toll = np.array(rows, dtype=np.int64).reshape(-1, 5).T
+    (height, width), capacity, crossing = plan["barriers"].shape, int(plan["destination_capacity"]), plan["crossing"]
+    last = int(np.diff(plan["first_action"]).max(initial=0))
+    inside = (x >= -is_vertex) & (x < width + is_vertex) & (y >= 0) & (y < height + is_vertex)
+    inside &= (step >= 1) & (step <= last)
+    demand(inside.all() and last <= MOST, f"tolls must lie in the area, and in up to {MOST} steps of the plan")
     demand(((toll >= 0) & (toll <= MOST)).all() and 0 <= capacity <= MOST, f"tolls and capacity must be up to {MOST}")
-    is_goal = np.isin(cell, goals)
-    demand(capacity > 0 or not is_goal.any(), "where any number may enter, no toll can be collected")
-    key = step * width * height + cell
-    demand(np.unique(key).size == key.size, "a cell must have one toll in a step")
-    order = np.argsort(step, kind="stable")
+    place = np.where(is_vertex, y * (width + 2) + x + 1, y * width + x)
+    payers = np.where((is_vertex == 0) & np.isin(place, goals), capacity, 1)
+    demand((payers > 0).all() and (crossing == "forbid" or not is_vertex.any()), "any number of robots may pay a toll")
+    demand(np.unique([is_vertex, place, step], axis=1).shape[1] == step.size, "a place must have one toll in a step")
+    order, reached = np.argsort(step, kind="stable"), plan["robots"][pays[plan["robots"]] < FAR]
     begin = np.searchsorted(step[order], np.arange(last + 2))
-    pays = last + hops  # from the last step on, when there are no more tolls
+    at_vertex = np.zeros((height + 2) * (width + 2) + 1, dtype=np.int64)  # the last one is for moves that pass none
     for now in range(last, 0, -1):
-        pays[goals] = now  # whoever enters now pays that
         due = order[begin[now] : begin[now + 1]]
-        pays[cell[due]] += toll[due]
-        pays = reduce(np.minimum, (pays[neighbour] for neighbour in neighbours))
-    pays[goals] = 0
-    robots = plan["robots"][hops[plan["robots"]] < FAR]
-    return sum(pays[robots].tolist()) - sum((np.where(is_goal, capacity, 1) * toll).tolist())
+        cells, vertices = due[is_vertex[due] == 0], due[is_vertex[due] == 1]
+        pays[place[cells]] += toll[cells]
+        at_vertex[place[vertices]] = toll[vertices]
+        pays = cheapest(pays, target, cost, at_vertex[via] if vertices.size else np.zeros(len(via), dtype=np.int64))
+        at_vertex[place[vertices]] = 0
+        pays[goals] = 0  # whoever has arrived pays no more
+    return sum(pays[reached].tolist()) - sum((payers * toll).tolist())
 
 
 def check(area, plan_path, certificate):
     """Return in words what is proven; raise ValueError if it is not."""
-    with np.load(plan_path, allow_pickle=False) as archive:
-        plan = {name: archive[name] for name in archive.files}
-    shape, barriers = str(plan["tessellation"]), read_barriers(area)
-    demand(shape == "hexagonal" or str(plan["neighbourhood"]) == "edge", "robots must move across edges only")
-    cost_of_move = 10 if str(plan["costs"]) == "paper" else 1000
-    demand(plan["waiting_cost"] == cost_of_move, "waiting must cost as much as a move")
-    demand(not {"clock", "following"} & plan.keys(), "every move must last a step, and robots may follow at once")
+    plan = dict(np.load(plan_path, allow_pickle=False))
+    shape, wait = str(plan["tessellation"]), int(plan["waiting_cost"])
+    past_vertices, edges = PAST_VERTICES[shape], len(STEPS[shape][0]) - len(PAST_VERTICES[shape])
+    cost = [1000] * edges + past_vertices if plan["costs"] == "euclidean" else [10] * edges + [14] * len(past_vertices)
+    cost = np.array([*(cost[:edges] if plan["neighbourhood"] == "edge" else cost), wait])
+    timed = {"clock", "following", "doors", "start_times"} & plan.keys()
+    demand(not timed and 0 <= wait <= MOST, f"nobody must wait for a time, nor at more than {MOST}")
+    rows = Path(area).read_text().splitlines()
+    is_map = rows[0].startswith("type")  # a header of four lines
+    barriers = np.array(
+        [[letter in ("@OTW" if is_map else "B#") for letter in row] for row in rows[4 * is_map :] if row]
+    )
     demand(np.array_equal(barriers, plan["barriers"]), "the plan must be for this area")
-    neighbours, goals = make_neighbours(barriers, shape), np.unique(plan["destinations"])
-    demand(goals.size and goals.min() >= 0 and (neighbours[-1, goals] == goals).all(), "destinations must be free")
-    hops = steps_to_destination(neighbours, goals)
-    steps = replay(plan, neighbours, goals, hops)
-    header, *rows = Path(certificate).read_text().splitlines()
-    demand(header == "x,y,step,toll", "a certificate must have the columns x,y,step,toll")
-    tolls = np.array([[int(number) for number in row.split(",")] for row in rows], dtype=np.int64).reshape(-1, 4)
-    proven = proven_steps(tolls, plan, neighbours, goals, hops)
-    demand(proven == steps, f"the plan takes {steps} steps, the tolls prove only that none takes fewer than {proven}")
-    return f"{plan['robots'].size} robots, {goals.size} destinations, {shape}: {steps} steps, and no plan takes fewer"
+    (target, via), goals = make_moves(plan, shape, cost.size - 1, edges), np.unique(plan["destinations"])
+    demand(goals.size and goals.min() >= 0 and (target[-1, goals] == goals).all(), "destinations must be free")
+    pays, before = np.where(np.isin(np.arange(target.shape[1]), goals), 0, FAR), None
+    while not np.array_equal(pays, before):  # what is paid after the plan, when there are no more tolls
+        before, pays = pays, np.minimum(pays, cheapest(pays, target, cost, np.zeros(len(via), dtype=np.int64)))
+    total = replay(plan, target, via, cost, goals, pays < FAR)
+    least = proven(certificate, plan, target, via, cost, goals, pays)
+    demand(least == total, f"the plan takes {total}, the tolls prove only that none takes less than {least}")
+    return f"{plan['robots'].size} robots, {goals.size} destinations, {shape}: {total} in all, and no plan takes less"
 
 
 if __name__ == "__main__":

@@ -97,7 +97,7 @@ CASES = {
     "two outputs of one name": (None, [*ONE, "--picture", "p.png", "--summary", "p.png"], "two outputs must not have one name, p.png"),
     "certificate of no kind": (None, [*ONE, "--planner", "optimal", "--certificate", "c.json"], "c.json: the suffix of a certificate must be one of .csv, not '.json'"),
     "certificate of a plan that is not optimal": (None, [*ONE, "--certificate", "c.csv"], "--certificate proves what planner 'optimal' plans, not 'greedy'"),
-    "certificate where steps differ in cost": (None, [*ONE, "--planner", "optimal", "--tessellation", "square", "--certificate", "c.csv"], "a certificate needs steps that all cost the same: hexagonal cells or neighbourhood='edge', not square"),
+    "certificate where nobody follows": (None, [*ONE, "--planner", "optimal", "--following", "forbid", "--certificate", "c.csv"], "a certificate needs time in steps alone: clock='steps' and following='allow', not 'steps', 'forbid'"),
     "prices of no kind": (None, ["prices", "world.map", *AIM, "--robots", "1", "--out", "p.json"], "p.json: the suffix of prices must be one of .csv, not '.json'"),
     "prices of windows": (None, ["prices", "world.map", *AIM, "--robots", "1", "--kind", "window"], "--kind must be one of barrier, choke, door, not 'window'"),
     "prices where nobody follows": (None, ["prices", "world.map", *AIM, "--robots", "1", "--following", "forbid"], "planner 'optimal' needs following='allow', not 'forbid', *"),

@@ -450,4 +450,4 @@ def test_a_certificate_is_written_beside_the_plan_and_can_be_checked(folder):
     assert "5 robots, 1 destinations, hexagonal: " in check("world.txt", "p.npz", "c.csv")
     Path("c.csv").unlink()
     run("plan", "s.toml")
-    assert "no plan takes fewer" in check("world.txt", "p.npz", "c.csv")
+    assert "no plan takes less" in check("world.txt", "p.npz", "c.csv")

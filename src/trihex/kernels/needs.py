@@ -41,7 +41,15 @@ KERNELS_OF: dict[str, tuple[str, ...]] = {
     "optimal": _OPTIMUM,  # and, where robots crowd, one of two more: `trihex.planners.uses_of`
     "optimal_crowd": (*_OPTIMUM, "optimum.lowering", "optimum.queues", "optimum.serving", "optimum.tolled"),
     "optimal_earliest": (*_OPTIMUM, *_FCOST, "optimum.earliest", "optimum.laid"),
-    "certificate": (*_FIELD, "areas.moves", "fields.steps", "optimum.laid", "optimum.tolls", "plans.replay"),
+    "certificate": (
+        *_FIELD,
+        "areas.moves",
+        "fields.steps",
+        "optimum.fair",
+        "optimum.laid",
+        "optimum.tolls",
+        "plans.replay",
+    ),
     "prices": (
         *_OPTIMUM,
         *("bounds.cuts", "optimum.doors", "optimum.earliest", "optimum.laid", "optimum.late"),

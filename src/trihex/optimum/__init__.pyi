@@ -1,6 +1,7 @@
 from .certificate import (
     Certificate as Certificate,
     check_certifiable as check_certifiable,
+    check_equal_steps as check_equal_steps,
     make_certificate as make_certificate,
 )
 from .earliest import (

@@ -1,9 +1,9 @@
-"""Certificate: tolls that prove a plan to be the best where every step costs the same."""
+"""Certificate: tolls that prove a plan to be the best."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,7 @@ from trihex.fields import NScheme, make_n_scheme
 from trihex.kernels.codes import NOT_REACHED
 from trihex.memory import limit_or_default
 from trihex.optimum.earliest import lay_words, make_slot_graph
+from trihex.optimum.fair import FairPricing
 from trihex.optimum.network import Network, make_network
 from trihex.optimum.workspace import check_memory, start_nodes
 from trihex.plans import Plan
@@ -40,34 +41,48 @@ class Certificate(Record):
         Where and when there is a toll, in order of step: on a robot that is in the cell after the step, or enters the
         destination in it.
     toll : ndarray of int64, shape (tolls,)
-        In steps, at least 1.
+        In the unit of the costs, at least 1.
+    vertex, vertex_step, vertex_toll : ndarray of int64, optional
+        The same of lattice vertices, on a robot that moves through the vertex in the step. Vertices bear the numbers
+        that `Layout` gives them.
     """
 
     plan: Plan
     cell: NDArray[np.int64]
     step: NDArray[np.int64]
     toll: NDArray[np.int64]
+    vertex: NDArray[np.int64] = field(default_factory=lambda: np.empty(0, dtype=np.int64))
+    vertex_step: NDArray[np.int64] = field(default_factory=lambda: np.empty(0, dtype=np.int64))
+    vertex_toll: NDArray[np.int64] = field(default_factory=lambda: np.empty(0, dtype=np.int64))
 
     def __post_init__(self) -> None:
         check_type("plan", self.plan, Plan)
-        for name in ("cell", "step", "toll"):
+        for name in ("cell", "step", "toll", "vertex", "vertex_step", "vertex_toll"):
             self._set(name, read_only(np.asarray(getattr(self, name), dtype=np.int64)))
 
     def in_words(self) -> str:
         """Return how many tolls prove which plan."""
-        return f"{self.toll.size} tolls for {self.plan.in_words()}"
+        return f"{self.toll.size + self.vertex_toll.size} tolls for {self.plan.in_words()}"
 
 
 def check_certifiable(scenario: Scenario) -> None:
-    """Raise PlanError unless every step costs the same and nobody passes a lattice vertex."""
-    tessellation = scenario.area.tessellation
-    rule = "a certificate needs steps that all cost the same:"
+    """Raise PlanError unless a plan is a flow that can be proven: time in steps alone, all begin at once, no doors."""
     if not scenario.is_stepwise:
-        raise PlanError(f"{rule} clock='steps' and following='allow', not {scenario.clock!r}, {scenario.following!r}")
+        raise PlanError(
+            "a certificate needs time in steps alone: clock='steps' and following='allow', "
+            f"not {scenario.clock!r}, {scenario.following!r}"
+        )
     if scenario.has_start_times:
         raise PlanError("a certificate needs robots that may all begin at once, without start_times")
     if scenario.has_flows:
         raise PlanError("a certificate needs destinations that let in as many in each step, not doors of a flow")
+
+
+def check_equal_steps(scenario: Scenario) -> None:
+    """Raise PlanError unless every step costs the same, nobody passes a lattice vertex and a plan can be proven."""
+    check_certifiable(scenario)
+    tessellation = scenario.area.tessellation
+    rule = "all steps must cost the same:"
     if tessellation.edge_count < tessellation.direction_count:
         raise PlanError(f"{rule} hexagonal cells or neighbourhood='edge', not {tessellation.name}")
     if scenario.waiting_cost != tessellation.edge_cost:
@@ -99,7 +114,8 @@ def make_certificate(
     Raises
     ------
     PlanError
-        If steps cost differently, some robot does not arrive, or the plan is not the best.
+        If moves last or doors have a flow, some robot does not arrive, or the plan is not the best, or is but cannot be
+        proven, as the flow leaves something out (docs/optimum.md).
     TooLargeError
         If the time-expanded graph would take more than `memory_limit`.
 
@@ -110,7 +126,7 @@ def make_certificate(
     >>> scenario = th.Scenario(area, destinations=[(0, 0)], robots=[(2, 0), (2, 1)], destination_capacity=1)
     >>> certificate = th.make_certificate(th.make_plan(scenario, "optimal"))
     >>> certificate.step, certificate.toll
-    (array([2]), array([1]))
+    (array([2]), array([10]))
     """
     check_type("plan", plan, Plan)
     scenario = plan.scenario
@@ -125,7 +141,27 @@ def make_certificate(
     if plan.jumps.size or np.diff(plan.first_action).sum() != np.diff(plan.first_action)[robots].sum():
         raise PlanError("a certificate needs a plan in which nobody jumps, and nobody moves who cannot arrive")
     network = make_network(n_scheme)
-    return _Proof(network, plan, robots, memory_limit).make(progress)
+    if network.has_equal_steps:
+        return _Proof(network, plan, robots, memory_limit).make(progress)
+    return _by_fair_prices(FairPricing(network, plan, robots, memory_limit), progress)
+
+
+def _by_fair_prices(pricing: FairPricing, progress: Callable[[int, int], None] | None) -> Certificate:
+    """Return the certificate; raise PlanError if the tolls do not prove the plan."""
+    plan, network = pricing.plan, pricing.network
+    if not pricing.make(progress):
+        raise PlanError(f"a certificate needs the best plan; one of less than {plan.total_time} is possible")
+    node, step, toll = pricing.tolls()
+    proven = pricing.proven(toll, np.where(node >= network.first_destination, plan.scenario.entry_limit, 1))
+    if proven != plan.total_time:
+        raise PlanError(f"a certificate needs the best plan: its total is {plan.total_time}, proven is {proven}")
+    place = network.site_of_node[node].astype(np.int64)
+    columns = []
+    for chosen in (~network.is_vertex[node], network.is_vertex[node]):
+        order = np.flatnonzero(chosen)[np.lexsort((place[chosen], step[chosen]))]
+        columns += [place[order], step[order], toll[order]]
+    columns[0] = plan.scenario.area.layout.site_to_cell(columns[0].astype(np.int32)).astype(np.int64)
+    return Certificate(plan, *columns)
 
 
 class _Proof:
@@ -183,7 +219,7 @@ class _Proof:
             raise PlanError(
                 f"a certificate needs the best plan: its robots take {steps} steps together, proven are {proven}"
             )
-        order = np.lexsort((cell, step))
+        order, toll = np.lexsort((cell, step)), toll * self.plan.scenario.waiting_cost
         return Certificate(self.plan, *(read_only(column[order]) for column in (cell, step, toll)))
 
     def _tolls(self) -> tuple[int, NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:

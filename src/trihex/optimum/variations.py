@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from trihex.errors import PlanError, check_type
 from trihex.fields import NScheme, make_n_scheme
 from trihex.memory import limit_or_default
-from trihex.optimum.certificate import check_certifiable
+from trihex.optimum.certificate import check_equal_steps
 from trihex.optimum.laid import LaidPlan
 from trihex.plans import Plan
 from trihex.record import read_only
@@ -54,7 +54,7 @@ class Variations:
         from trihex.optimum.kernels.variation import Optimum
 
         check_type("plan", plan, Plan)
-        check_certifiable(plan.scenario)
+        check_equal_steps(plan.scenario)
         n_scheme = n_scheme if n_scheme is not None else make_n_scheme(plan.scenario)
         self._laid = laid = LaidPlan(plan, n_scheme, limit_or_default(memory_limit))
         self._graph = graph = laid.graph

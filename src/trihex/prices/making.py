@@ -13,7 +13,7 @@ from trihex.areas import cells_from
 from trihex.bounds import choke_cells
 from trihex.errors import PlanError, check_choice, check_type
 from trihex.fields import NScheme, make_n_scheme
-from trihex.optimum import Variations, check_certifiable
+from trihex.optimum import Variations, check_equal_steps
 from trihex.plans import Plan
 from trihex.prices.afresh import AfreshVariations
 from trihex.prices.prices import KINDS, Prices
@@ -107,7 +107,7 @@ def _variations(plan: Plan, n_scheme: NScheme, memory_limit: int | None) -> tupl
     """Return what tells of optima with one cell changed, and what bounds them."""
     afresh = AfreshVariations(plan, n_scheme, memory_limit)
     try:
-        check_certifiable(plan.scenario)
+        check_equal_steps(plan.scenario)
     except PlanError:
         afresh.check(plan)
         return afresh, afresh
@@ -166,7 +166,7 @@ class _Pricing:
             self._price("door", cell, self.variations.saved_by_door)
             row, best = self.rows.pop(), self.rows[0]
             if not row[4]:
-                self.rows[0] = (*best[:4], False)
+                self.rows[0] = (*(best if best[1] >= 0 else row)[:4], False)
                 break
             self.rows[0] = row if row[2] > best[2] else best
         self._told(0, self.total)
