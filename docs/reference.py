@@ -21,6 +21,7 @@ TITLES = {
     "planners": "Planners: who plans, by name",
     "optimum": "Certificates: what proves that no plan is better",
     "judging": "Judge and report",
+    "prices": "Prices: what each wall and each door costs",
     "running": "A world that changes while robots move",
     "studies": "Studies and comparisons",
     "pictures": "Pictures and movies",

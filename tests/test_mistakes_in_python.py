@@ -36,6 +36,8 @@ CASES = {
     "field of an area": ("th.make_n_scheme(area)", "scenario must be a Scenario, not Area: Scenario(area, destinations, robots) makes one"),
     "directions of a scenario": ("th.make_d_scheme(scenario)", "n_scheme must be an NScheme, not Scenario: make_n_scheme(scenario) makes one"),
     "report of a scenario": ("th.make_report(scenario)", "plan must be a Plan, not Scenario: make_plan(scenario) makes one"),
+    "prices of a scenario": ("th.make_prices(scenario)", "plan must be a Plan, not Scenario: make_plan(scenario) makes one"),
+    "prices of windows": ("th.make_prices(report.plan, kinds='window')", "kinds must be one of barrier, choke, door, not 'window'"),
     "audit of a report": ("th.audit_plan(report)", "plan must be a Plan, not Report: report.plan is one"),
     "audit of a file": ("th.audit_plan('plan.npz')", "plan must be a Plan, not 'plan.npz': read_plan(path) reads one"),
     "picture of a scenario as a plan": ("th.picture_of_plan(scenario)", "plan must be a Plan or a Run, not Scenario: make_plan(scenario) makes one"),

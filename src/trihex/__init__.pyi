@@ -7,6 +7,7 @@ from .areas import (
     Tessellation as Tessellation,
     Zone as Zone,
     make_caves_area as make_caves_area,
+    make_doors as make_doors,
     make_maze_area as make_maze_area,
     make_random_area as make_random_area,
     make_rooms_area as make_rooms_area,

@@ -11,6 +11,7 @@ import trihex as th
 from tests.bounds.test_bounds import EDGES, values, world
 from tests.oracles.gaps import TIMES, crowded_scenario
 from tests.oracles.timed import plan_of_deeds, solve_timed, with_time
+from tests.strategies import with_start_times
 from tests.sweeps import swept
 from trihex.bounds import bounds
 from trihex.bounds.demand import make_demand
@@ -34,6 +35,8 @@ def test_the_integer_program_on_half_ticks_finds_the_optimum_of_steps(share):
 def test_bounds_below_the_optimum_and_planners_above(time, share):
     for seed in range(share, swept(75, 9), 3):
         scenario = with_time(crowded_scenario(1000 + seed, sides=(2, 5), most_robots=8), *time)
+        if seed % 2:
+            scenario = with_start_times(scenario, seed, latest=8)
         _, relaxed, least, _ = solve_timed(scenario)
         assert relaxed <= least + 1e-6
         n_scheme = th.make_n_scheme(scenario)

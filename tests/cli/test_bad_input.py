@@ -68,7 +68,15 @@ CASES = {
     "unknown option of a planner": (None, [*ONE, "--planner-option", "speed=3"], "planner 'greedy' has no options, so not 'speed'"),
     "half an option of a planner": (None, [*ONE, "--planner-option", "speed"], "--planner-option must be NAME=VALUE, not 'speed'"),
     "negative cost": (None, [*ONE, "--waiting-cost", "-3"], "--waiting-cost must be a whole number from 0 to 1073741824, not '-3'"),
-    "capacity of nothing": (None, [*ONE, "--destination-capacity", "0"], "--destination-capacity must be a whole number from 1 to 1073741824, not '0'"),
+    "capacity of nothing": (None, [*ONE, "--destination-capacity", "0"], "--destination-capacity must be a number of robots above 0: a step, such as 2, 0.5 or 1/3, or in metres a second, such as 1.6/s; not '0'"),
+    "capacity in words": (None, [*ONE, "--capacity", "3,0=much"], "--capacity must be a number of robots above 0: a step, such as 2, 0.5 or 1/3, or in metres a second, such as 1.6/s; not 'much'"),
+    "capacity of no place": (None, [*ONE, "--capacity", "0.5"], "--capacity must be the name of a zone or a cell X,Y, =, and a flow, as north=1.6/s or 3,4=0.5, not '0.5'"),
+    "capacity of a zone that does not exist": (None, [*ONE, "--capacity", "north=0.5"], "door: zone 'north' does not exist: the area has none"),
+    "capacity of a barrier": (None, [*ONE, "--capacity", "1,1=0.5"], "door 0 must have free cells; (1, 1) is a barrier"),
+    "capacity in seconds without metres": (None, [*ONE, "--capacity", "3,0=1.6/s"], "capacity of a door must be robots a step, such as 0.5, in an area without metres, not '1.6/s'"),
+    "capacity of next to nothing": (None, [*ONE, "--destination-capacity", "0.00001"], "destination_capacity must be from 1/10000 to 1073741824 robots a step, not '0.00001'"),
+    "certificate where doors have a flow": (None, [*ONE, "--planner", "optimal", "--destination-capacity", "0.5", "--certificate", "c.csv"], "a certificate needs destinations that let in as many in each step, not doors of a flow"),
+    "replanning where doors have a flow": (None, ["run", "world.map", *AIM, "--robots", "1", "--destination-capacity", "0.5", "--replan"], "planner must be greedy or fcost, without replan, where doors have a flow, not 'fcost' with replan: *"),
     "robots in words": (None, [*PLAN, "--robots", "many"], "--robots must be a whole number from 0 to 1073741824, not 'many'"),
     "more robots than starts": (None, [*PLAN, "--robots", "3", "--starts", "starts.csv"], "--robots takes the first of starts.csv: at most 2, not 3"),
     "seed for nothing": (None, [*PLAN, "--starts", "starts.csv", "--seed", "3"], "--seed draws robots: add --robots N"),
@@ -90,6 +98,10 @@ CASES = {
     "certificate of no kind": (None, [*ONE, "--planner", "optimal", "--certificate", "c.json"], "c.json: the suffix of a certificate must be one of .csv, not '.json'"),
     "certificate of a plan that is not optimal": (None, [*ONE, "--certificate", "c.csv"], "--certificate proves what planner 'optimal' plans, not 'greedy'"),
     "certificate where nobody follows": (None, [*ONE, "--planner", "optimal", "--following", "forbid", "--certificate", "c.csv"], "a certificate needs time in steps alone: clock='steps' and following='allow', not 'steps', 'forbid'"),
+    "prices of no kind": (None, ["prices", "world.map", *AIM, "--robots", "1", "--out", "p.json"], "p.json: the suffix of prices must be one of .csv, not '.json'"),
+    "prices of windows": (None, ["prices", "world.map", *AIM, "--robots", "1", "--kind", "window"], "--kind must be one of barrier, choke, door, not 'window'"),
+    "prices where nobody follows": (None, ["prices", "world.map", *AIM, "--robots", "1", "--following", "forbid"], "planner 'optimal' needs following='allow', not 'forbid', *"),
+    "no time for prices": (None, ["prices", "world.map", *AIM, "--robots", "1", "--limit-seconds", "0"], "--limit-seconds must be a number above 0, not '0'"),
     # other commands
     "plan without its area": (None, ["check", "plan.csv"], "plan.csv does not hold its area: add AREA"),
     "plan to convert without its area": (None, ["convert", "plan.csv", "p.npz"], "plan.csv does not hold its area: add --area AREA"),
@@ -151,7 +163,7 @@ def test_all_mistakes_of_a_scenario_are_told(folder):
     assert result.exit_code == 2
     assert result.stderr.splitlines() == [
         "trihex: error: s.toml: area.costs: must be one of paper, euclidean, not 'cheap'",
-        "trihex: error: s.toml: colour: there is no such key; keys are area, destinations, destinations_in_metres, rules, robots, planner, outputs",
+        "trihex: error: s.toml: colour: there is no such key; keys are area, destinations, destinations_in_metres, rules, doors, robots, planner, outputs",
     ]
 
 

@@ -81,7 +81,7 @@ CASES = {
     "image a little too large": (b"P5\n12000 9000\n255\n" + bytes(70), ["plan", "bad", "--destination", "0,0", *ROBOTS], "bad: an image may have at most 100000000 pixels, not 12000 x 9000: cut off what is not needed, or shrink it (a half as wide has twice the resolution in metres)"),
     # polygons
     "JSON cut short": (GEOJSON[:-2], BAD, "bad: is no JSON: *delimiter"),
-    "unknown kind": (GEOJSON.replace('"free"', '"obstacles"'), BAD, "bad: feature 0: kind must be one of free, obstacle, destination, robot, not 'obstacles'; did you mean 'obstacle'?"),
+    "unknown kind": (GEOJSON.replace('"free"', '"obstacles"'), BAD, "bad: feature 0: kind must be one of free, obstacle, destination, robot, door, not 'obstacles'; did you mean 'obstacle'?"),
     "unknown type": (GEOJSON.replace("Polygon", "Polygone"), BAD, "bad: feature 0: type must be one of *, not 'Polygone'; did you mean 'Polygon'?"),
     "open ring": (GEOJSON.replace(", [0, 0]]", "]"), BAD, "bad: feature 0: is no Polygon: a ring must end where it begins"),
     "ring in words": (GEOJSON.replace("[9, 0]", '["nine", 0]'), BAD, "bad: feature 0: is no Polygon: coordinates must be finite numbers in lists as deep as its type asks for"),
@@ -93,6 +93,9 @@ CASES = {
     "exit far outside": (with_feature("destination", "LineString", "[[10, 2], [10, 4]]"), ["plan", "bad", *SIZE, *ROBOTS], "bad: feature 1: a destination between (10, 2) and (10, 4) metres touches no free cell, and none leads through it; the nearest is (19, 3) at (8.51592, 4) metres, its centre 1.48 metres away"),
     "exit with half a name": (GEOJSON.replace('"kind": "free"', '"kind": "destination", "name": ["north"]'), BAD, "bad: feature 0: name of a zone must be a line of 1 to 200 characters, not ['north']"),
     "exit without coordinates": (with_feature("destination", "LineString", "[]"), ["plan", "bad", *SIZE, *ROBOTS], "bad: feature 1: a destination must have coordinates; it has none"),
+    "door that lets in nobody knows how many": (with_feature("door", "LineString", "[[4, 0], [4, 6]]"), ["plan", "bad", *SIZE, *AIM, *ROBOTS], "bad: feature 1: a door must have the property capacity, what it lets in, such as '1.6/s'"),
+    "door of a strange capacity": (with_feature("door", "LineString", "[[4, 0], [4, 6]]").replace('"door"', '"door", "capacity": "many"'), ["plan", "bad", *SIZE, *AIM, *ROBOTS], "bad: feature 1: capacity must be a number of robots above 0: a step, such as 2, 0.5 or 1/3, or in metres a second, such as 1.6/s; not 'many'"),
+    "door outside": (with_feature("door", "LineString", "[[12, 0], [12, 6]]").replace('"door"', '"door", "capacity": 1'), ["plan", "bad", *SIZE, *AIM, *ROBOTS], "bad: feature 1: a door must lead through free cells; it meets none"),
     "robot without coordinates": (with_feature("robot", "Point", "[]"), ["plan", "bad", *SIZE, *AIM], "bad: feature 1: a robot must have coordinates; it has none"),
     "place in degrees": (GEOJSON.replace(str(SQUARE), "[[13.40, 52.51], [13.41, 52.51], [13.41, 52.52], [13.40, 52.51]]"), BAD, "bad: a place drawn by polygons must be larger than a cell of 0.5 metres, not 0.01 by 0.01 metres: numbers are metres, not degrees or kilometres"),
     "place in kilometres": ("POLYGON ((0 0, 0.09 0, 0.09 0.06, 0 0))", BAD, "bad: a place drawn by polygons must be larger than a cell of 0.5 metres, not 0.09 by 0.06 metres: numbers are metres, not degrees or kilometres"),

@@ -6,11 +6,23 @@ from math import floor
 
 def doors_of(scenario):
     """Return (cells ascending, flow) of each door, and of each other destination whose capacity is a fraction."""
-    doors = [(sorted(door.cells.tolist()), door.flow) for door in scenario.doors]
+    from tests.oracles.rules import Rules  # which needs this file
+
+    rules, ends = Rules(scenario), set(scenario.destinations.tolist())
+    doors = []
+    for door in scenario.doors:
+        cells = [cell for cell in sorted(door.cells.tolist()) if cell not in ends or _can_be_entered(rules, cell, ends)]
+        doors.append((cells or sorted(door.cells.tolist()), door.flow))
     if isinstance(scenario.destination_capacity, Fraction):
-        known = {cell for cells, _ in doors for cell in cells}
+        known = {cell for door in scenario.doors for cell in door.cells.tolist()}
         doors += [([c], scenario.destination_capacity) for c in scenario.destinations.tolist() if c not in known]
     return doors
+
+
+def _can_be_entered(rules, cell, ends):
+    """Tell whether robots come into a destination from a cell that is none."""
+    width = rules.area.width
+    return any(y * width + x not in ends for (x, y), _ in rules.neighbours((cell % width, cell // width)))
 
 
 class Openings:

@@ -181,7 +181,7 @@ def judge(plan):
     for stay in record.stays:
         before = [one for one in owners[stay.thing, stay.begin] if one < stay]
         if stay.thing[0] == "destination":
-            if ceil(plan.scenario.destination_capacity or 0) and len(before) >= ceil(plan.scenario.destination_capacity or 0):
+            if 0 < ceil(plan.scenario.destination_capacity or 0) <= len(before):
                 found.append(("capacity", stay.begin // 2 + 1, (stay.robot,), (stay.thing[1],)))
         elif stay.is_later and before and longest(before).robot != stay.robot:
             both = tuple(sorted((longest(before).robot, stay.robot)))

@@ -45,6 +45,8 @@ class TimedProgram:
         self.reachable = self.rules.reachable()
         starts = enumerate(self.rules.places(scenario.robots))
         self.start_of_robot = {r: at for r, at in starts if at in self.reachable - self.destinations}
+        times = scenario.start_times * finer
+        self.may_leave = {at: int(times[r]) for r, at in self.start_of_robot.items()}
         self.moves = {at: list(self._moves_from(at)) for at in self.reachable - self.destinations}
         self.deeds, self.cost, self.limit, self.openings = [], [], {}, Openings(scenario)
         self.members, self.balance = defaultdict(list), defaultdict(list)
@@ -91,6 +93,8 @@ class TimedProgram:
         for cell, moves in self.moves.items():
             for begin in range(soonest.get(cell, self.end), self.end):
                 for other, price, duration in [(cell, self.scenario.waiting_cost, 1), *moves]:
+                    if other != cell and begin < self.may_leave.get(cell, 0):
+                        continue  # the robot that starts there stands, and fills it
                     if begin + duration + needed[other] <= self.end:
                         self._add(cell, other, begin, price, duration)
 
@@ -129,7 +133,9 @@ class TimedProgram:
                 limit = self.openings(*name[1:])
                 limit = np.inf if limit is None else limit
             if len(deeds) > limit:
-                limits[tuple(deeds)] = min(limit, limits.get(tuple(deeds), limit))  # mostly the same as half a tick before
+                limits[tuple(deeds)] = min(
+                    limit, limits.get(tuple(deeds), limit)
+                )  # mostly the same as half a tick before
         rows = [([(deed, 1) for deed in deeds], -np.inf, limit) for deeds, limit in limits.items()]
         starts = set(self.start_of_robot.values())
         for (cell, time), signed in self.balance.items():

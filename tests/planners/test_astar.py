@@ -7,9 +7,14 @@ import numpy as np
 import pytest
 
 import trihex as th
+from tests.oracles.timed import with_time
 from tests.strategies import random_scenario
 from tests.sweeps import swept
 from trihex.planners import make_plan
+from trihex.planners.estimates import Estimates
+from trihex.planners.reservations import Reservations
+
+GOAL = 2  # where the state of a search has the last node of the way
 
 
 def least_time(scenario, start, others):
@@ -68,6 +73,30 @@ def test_each_robot_takes_its_cheapest_way_past_those_before_it(seed):
         for k in directions:
             sites.append(sites[-1] + (0 if k == 255 else int(layout.offset_of_direction[sites[-1] & 1, k])))
         others.append((sites, directions))
+
+
+@pytest.mark.parametrize(("clock", "following"), [("steps", "allow"), ("costs", "allow"), ("costs", "forbid")])
+def test_what_searches_have_learned_makes_no_way_dearer(monkeypatch, clock, following):
+    """Each search is done twice, first as if it were the first of all."""
+    find_way, learned = Reservations.find_way, []
+
+    def find_twice(self, start, start_time, is_shut):
+        kept, self._estimates = self._estimates, Estimates(self._terrain)
+        find_way(self, start, start_time, is_shut)
+        alone, self._estimates = self._nodes.cost[self._state[GOAL]], kept
+        way = find_way(self, start, start_time, is_shut)
+        assert way is None or self._nodes.cost[self._state[GOAL]] == alone
+        learned.append((kept.tables.learned.max(initial=0), kept.tables.longer.max(initial=0)))
+        return way
+
+    monkeypatch.setattr(Reservations, "find_way", find_twice)
+    monkeypatch.setattr("trihex.planners.estimates._PATIENCE", 0)
+    for seed in range(swept(60, 15)):
+        scenario = random_scenario(70_000 + seed, sides=(6, 14), most_filled=0.7, waiting_costs=(None,))
+        scenario = with_time(scenario, clock, following)
+        plan = make_plan(scenario, "astar")
+        assert th.audit_plan(plan).is_clean
+    assert np.all(np.max(learned, axis=0) > 0)
 
 
 def test_who_finds_no_way_out_has_all_planned_anew():

@@ -9,7 +9,7 @@ import trihex as th
 from tests.optimum.test_optimal import crowded_scenario
 from tests.oracles.flow import least_total_time, most_arrivals
 from tests.oracles.timed import with_time
-from tests.strategies import random_scenario, with_start_times
+from tests.strategies import random_scenario, with_random_doors, with_start_times
 from tests.sweeps import swept
 from trihex.bounds import arrivals_bound
 from trihex.kernels.codes import WAIT
@@ -108,6 +108,36 @@ def test_straighter_ways_begin_no_sooner():
         assert straight.total_time <= plan.total_time
         changed += straight != plan
     assert changed > swept(10, 2)
+
+
+def test_prices_of_walls_and_chokes_are_those_of_plans_that_begin_as_late():
+    area = th.Area("hexagonal", [[0, 1, 0, 0], [0, 1, 0, 1], [0, 0, 0, 0]])
+    scenario = th.Scenario(area, (3, 0), [(0, 0), (0, 1), (1, 2)], start_times=[0, 3, 5])
+    best = make_plan(scenario, "optimal").total_time
+    prices = th.make_prices(make_plan(scenario, "optimal"), kinds=("barrier", "choke"))
+    for kind, cell, price, robots in zip(prices.kind, prices.cell, prices.price, prices.robots, strict=True):
+        barriers = area.barriers.copy()
+        barriers.flat[cell] ^= True
+        kept = scenario.robots != cell
+        changed = th.Scenario(
+            th.Area("hexagonal", barriers), (3, 0), scenario.robots[kept], start_times=scenario.start_times[kept]
+        )
+        plan = make_plan(changed, "optimal")
+        assert robots == np.count_nonzero(plan.arrived) - 3
+        assert robots or price == (best - plan.total_time if kind == "barrier" else plan.total_time - best)
+    assert prices.price.max() > 0
+
+
+@pytest.mark.parametrize("seed", range(290_000, 290_000 + swept(40, 6)))
+def test_doors_with_a_flow_and_start_times_go_together(seed):
+    scenario = with_start_times(with_random_doors(crowded_scenario(seed)), seed, latest=12)
+    best = make_plan(scenario, "optimal")
+    assert th.audit_plan(best).is_clean
+    assert best.total_time == least_total_time(scenario, best.steps + 5)
+    for planner in PLANNERS:
+        plan = make_plan(scenario, planner)
+        assert th.audit_plan(plan).is_clean
+        assert plan.total_time >= best.total_time >= th.make_lower_bound(th.make_n_scheme(scenario)).value
 
 
 def test_what_cannot_know_start_times_says_so():

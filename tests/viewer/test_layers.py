@@ -7,21 +7,21 @@ import trihex as th
 from tests.viewer.pages import Shown, is_near
 from trihex.pictures import palette
 from trihex.planners import make_plan
-from trihex.viewer.bundle import decode, encode
+from trihex.viewer.bundle import Bundle, decode, encode
 from trihex.viewer.desk import Desk
-from trihex.viewer.layers import LAYERS, make_layer
+from trihex.viewer.layers import LAYERS, make_layer, with_layers
 
 SHADES = palette.visits_ramp(256)
 
 
-def queueing(tessellation="hexagonal", **more):
-    """Return a plan of robots that wait at a door, and for the destination."""
+def queueing(tessellation="hexagonal", capacity=1, **more):
+    """Return a plan of robots that wait at a door, and for the destination if few may enter."""
     barriers = np.zeros((7, 12), dtype=bool)
     barriers[:, 6] = True
     barriers[3, 6] = False
     area = th.Area(tessellation, barriers, **more)
     robots = [(x, y) for x in range(5) for y in range(7)]
-    return make_plan(th.Scenario(area, [(10, 3)], robots, destination_capacity=1), "greedy")
+    return make_plan(th.Scenario(area, [(10, 3)], robots, destination_capacity=capacity), "greedy")
 
 
 def shown_by(colours, values, most):
@@ -42,6 +42,18 @@ def test_layers_are_the_maps_of_the_plan_in_words_that_fit():
     step = th.make_report(timed).step_seconds
     np.testing.assert_allclose(lost.arrays["values"].reshape(7, 12), th.make_waiting_map(timed) * step)
     assert lost.header["unit"] == "s lost" and "square metre" in make_layer("density", timed).header["unit"]
+
+
+def test_prices_are_those_of_the_best_plan():
+    best = make_plan(queueing(capacity=None).scenario, "optimal")
+    walls, chokes = (make_layer(name, best).arrays["values"].reshape(7, 12) for name in ("walls", "chokes"))
+    prices = th.make_prices(best)
+    np.testing.assert_array_equal(walls, np.maximum(0, prices.price_of_cell("barrier")))
+    np.testing.assert_array_equal(chokes, np.maximum(0, prices.price_of_cell("choke")))
+    assert (walls > 0)[best.scenario.area.barriers].any() and not (walls > 0)[~best.scenario.area.barriers].any()
+    told, page = [], with_layers(Bundle({}, {}), best)
+    make_layer("walls", best, lambda done, total: told.append((done, total)))
+    assert told and sorted(page.header["layers"]) == ["density", "waiting"]  # what takes long is not made unasked
 
 
 def test_the_desk_has_layers_of_its_plans_and_says_what_there_is_not():
@@ -106,6 +118,28 @@ def test_maps_are_seen_and_told_and_two_plans_have_colours_alike(open_viewer):
     assert shown.ask("app.panes[0].layer") is None and not menu.is_visible()
     shown.press("Stop")
     assert menu.is_visible() and shown.ask("app.panes[0].layer.unit") == "robots" and shown.faults == []
+
+
+def test_prices_are_seen_beside_a_plan_that_has_none(open_viewer):
+    area = th.make_rooms_area("hexagonal", 12, 16, room=4, seed=2)
+    end = np.flatnonzero(~area.barriers)[60:61]
+    plan = make_plan(th.Scenario(area, end, th.random_robots(area, 40, 1, avoid=end)), "greedy")
+    shown = open_viewer(plan)
+    menu = shown.page.get_by_label("Map", exact=True)
+    menu.select_option("walls")
+    assert "plan, or compare, with Optimal" in shown.text(".status")
+    shown.page.get_by_label("Planner beside it").select_option("optimal")
+    shown.press("Compare")
+    shown.wait("app.runs[1] && app.panes[1].layer && !app.job")
+    shown.page.keyboard.press("End")
+    values = np.maximum(0, th.make_prices(make_plan(plan.scenario, "optimal")).price_of_cell("barrier"))
+    assert shown_by(shown.colours(1), values, values.max()).all() and shown.ask("app.panes[0].layer") is None
+    assert "time units saved if open" in shown.text(".legend")
+    shown.keep("prices-of-walls")
+    menu.select_option("waiting")  # another one is wanted while the first is on its way
+    shown.ask("app.layers.menu.value = 'density', app.layers.changed(), 0")
+    shown.wait("app.panes[0].layer?.unit === 'robots' && app.panes[1].layer?.unit === 'robots'")
+    assert shown.faults == []
 
 
 def test_what_cannot_be_had_is_told(open_viewer):

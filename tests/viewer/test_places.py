@@ -2,12 +2,15 @@
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 from fuzz.seeds import make_seeds
 
 import trihex as th
-from tests.viewer.pages import is_near
+from tests.viewer.pages import Shown, is_near
+from trihex.cli import main
 from trihex.formats import read_draft
 from trihex.pictures import palette
+from trihex.planners import make_plan
 
 HALF = {"cell_size": 0.5, "robot_radius": 0.0}
 
@@ -64,6 +67,45 @@ def test_a_place_without_a_size_asks_for_it_and_shows_its_ground(open_viewer, fo
     for word in ("wall", "robots do not fit"):
         assert word in shown.text(".legend")
     assert shown.faults == []
+
+
+def drawn_of_ground(shown):
+    """Return how much is drawn of walls within cells, and of places where robots do not fit."""
+    pixels = shown.pixels()
+    return [int(np.count_nonzero(is_near(pixels, colour, 0))) for colour in (palette.BARRIER, palette.TIGHT)]
+
+
+def test_a_plan_that_is_read_shows_the_ground_under_its_cells(open_viewer, folder, browser, monkeypatch):
+    """From Python, as a page alone, beside its area, on the command line, and opened where its area is open already."""
+    area = read_draft(folder / "house.geojson", cell_size=0.3, robot_radius=0.1).area
+    free = np.flatnonzero(~area.barriers)
+    plan = make_plan(th.Scenario(area, free[:1], free[-5:]), "greedy")
+    th.write_plan(plan, folder / "plan.csv")
+    shown = open_viewer(plan)
+    walls, tight = drawn_of_ground(shown)
+    assert walls > 500 and tight > 500 and "robots do not fit" in shown.text(".legend")
+    again = open_viewer(th.read_plan(folder / "plan.csv", th.Scenario(area, free[:1])))
+    assert drawn_of_ground(again) == pytest.approx([walls, tight], rel=0.01)
+    th.write_page(plan, folder / "plan.html")
+    alone = Shown(browser.new_page(viewport={"width": 1280, "height": 800}))
+    alone.page.goto((folder / "plan.html").as_uri())
+    alone.wait("app.runs[0]")
+    assert min(drawn_of_ground(alone)) > 500 and alone.faults == []
+    alone.page.close()
+    th.write_plan(plan, folder / "plan.npz")  # it says nothing of the ground
+    shown_first = []
+    monkeypatch.chdir(folder)
+    monkeypatch.setattr("trihex.viewer.launch.make_viewing", lambda desk, first, port: shown_first.append(first))
+    measures = ["--cell-size", "0.3", "--robot-radius", "0.1"]
+    for name in ("plan.csv", "plan.npz"):
+        told = ["--destination", "{},{}".format(*np.ravel(area.cell_to_xy(free[:1])))] if name == "plan.csv" else []
+        CliRunner().invoke(main, ["view", name, "house.geojson", *measures, *told])
+    assert [first.header["ground"] is not None for first in shown_first] == [True, True]
+    there = open_viewer(th.Scenario(area, free[:1]))
+    there.press("Open…")
+    there.press("plan.npz")
+    there.wait("app.runs[0] && !app.job")
+    assert drawn_of_ground(there) == pytest.approx([walls, tight], rel=0.01) and there.faults == []
 
 
 def test_a_wall_that_is_painted_or_erased_is_seen(open_viewer, folder):

@@ -23,7 +23,7 @@ from .coverage import (
 )
 from .door import (
     Door as Door,
-    doors_from as doors_from,
+    make_doors as make_doors,
 )
 from .entries import (
     entries_per_step as entries_per_step,
@@ -36,8 +36,10 @@ from .fit import (
     round_up_size as round_up_size,
 )
 from .flow import (
+    check_flow as check_flow,
     flow_from as flow_from,
     flow_in_words as flow_in_words,
+    plain_flow as plain_flow,
 )
 from .frame import (
     Frame as Frame,

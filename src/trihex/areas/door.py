@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from trihex.areas.area import Area
 from trihex.areas.flow import flow_from
 from trihex.areas.places import cells_from
+from trihex.areas.seconds import seconds_per_step
 from trihex.errors import AreaError, ScenarioError, kind_of
 from trihex.record import Record, read_only
 
@@ -54,23 +55,31 @@ class Door(Record):
         return f"{self.name or f'{self.cells.size} cells'}: {self.flow}"
 
 
-def doors_from(area: Area, given: Any, speed: float = 1.0) -> tuple[Door, ...]:
-    """Return the doors of an area, checked.
+def make_doors(area: Area, given: Any, *, speed: float = 1.0, turn_time: float = 0.0) -> tuple[Door, ...]:
+    """Return the doors of an area, checked, for `Scenario`.
 
     Parameters
     ----------
     area : Area
     given : mapping, or iterable
         Flows (see `flow_from`) by the names of zones, or doors, or pairs (places or the name of a zone, flow).
-    speed : float
-        Metres in a second, for flows in robots a second.
+    speed, turn_time : float
+        Of robots in an area in metres, as for `write_waypoints`: they tell what a flow in robots a second is.
 
     Raises
     ------
     ScenarioError
         If a zone does not exist, a door has no cell or one that is a barrier, or two doors share a cell.
+
+    Examples
+    --------
+    >>> from trihex.areas.frame import Frame
+    >>> area = Area("hexagonal", [[0, 0]], frame=Frame(cell_size=0.5))
+    >>> make_doors(area, [((0, 0), "1.6/s")], speed=2.0)[0].flow
+    Fraction(2, 5)
     """
-    doors = tuple(_door_from(area, one, speed) for one in _pairs(given))
+    step_seconds = None if area.frame is None else seconds_per_step(area, speed, turn_time)
+    doors = tuple(_door_from(area, one, step_seconds) for one in _pairs(given))
     seen: dict[int, str] = {}
     for number, door in enumerate(doors):
         who = f"door {door.name!r}" if door.name else f"door {number}"
@@ -97,7 +106,7 @@ def _pairs(given: Any) -> Iterable[Any]:
     raise ScenarioError(f"doors must be flows by the names of zones, or a list of doors, not {kind_of(given)}")
 
 
-def _door_from(area: Area, given: Any, speed: float) -> Door:
+def _door_from(area: Area, given: Any, step_seconds: float | None) -> Door:
     if isinstance(given, Door):
         places, flow, name = given.cells.tolist(), given.flow, given.name
     else:
@@ -109,10 +118,10 @@ def _door_from(area: Area, given: Any, speed: float) -> Door:
     what = f"capacity of door {name!r:.80}" if name else "capacity of a door"
     if not isinstance(places, str):
         return Door(
-            cells_from(area, places, "cells of a door", ScenarioError), flow_from(what, flow, area, speed), name
+            cells_from(area, places, "cells of a door", ScenarioError), flow_from(what, flow, area, step_seconds), name
         )
     try:
         cells = area.cells_of_zone(places)
     except AreaError as error:
         raise ScenarioError(f"door: {error}") from None
-    return Door(cells[~area.is_barrier(cells)], flow_from(what, flow, area, speed), name)
+    return Door(cells[~area.is_barrier(cells)], flow_from(what, flow, area, step_seconds), name)

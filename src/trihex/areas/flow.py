@@ -15,10 +15,10 @@ MOST_FLOW = 2**30
 # Flows are fractions of no larger denominator: 0.7333 of a robot a step is off by less than 1 in 10 000 000 steps.
 _FINEST = 10_000
 _TEXT = re.compile(r"\d{1,12}(\.\d{0,12})?(/[1-9]\d{0,11})?|\.\d{1,12}", re.ASCII)
-_RULE = "above 0: robots a step, such as 2, 0.5 or '1/3', or in metres a second, such as '1.6/s'"
+_RULE = "a number of robots above 0: a step, such as 2, 0.5 or 1/3, or in metres a second, such as 1.6/s"
 
 
-def flow_from(parameter: str, value: object, area: Area, speed: float = 1.0) -> Fraction:
+def flow_from(parameter: str, value: object, area: Area, step_seconds: float | None = None) -> Fraction:
     """Return how many robots a step (tick) a flow is.
 
     Parameters
@@ -29,8 +29,8 @@ def flow_from(parameter: str, value: object, area: Area, speed: float = 1.0) -> 
         Robots a step, such as 2, 0.5 or "1/3"; as text also a second, "1.6/s".
     area : Area
         For robots a second: one with a frame.
-    speed : float
-        Metres in a second, which tell how long a step lasts (`seconds_per_step`).
+    step_seconds : float, optional
+        How long a step (tick) lasts. Default: `seconds_per_step` at 1 metre in a second.
 
     Raises
     ------
@@ -44,15 +44,13 @@ def flow_from(parameter: str, value: object, area: Area, speed: float = 1.0) -> 
     >>> flow_from("capacity", "1.6/s", area), flow_from("capacity", 0.5, area)
     (Fraction(4, 5), Fraction(1, 2))
     """
-    number = _number(value)
-    if number is None or not 0 < number <= MOST_FLOW:
-        raise ScenarioError(f"{parameter} must be a number {_RULE}; not {value!r:.80}")
+    number = check_flow(parameter, value)
     if isinstance(value, str) and value.strip().endswith("/s"):
         if area.frame is None:
             raise ScenarioError(
-                f"{parameter} must be robots a step, such as 0.5, in an area that is measured in cells, not {value!r:.80}"
+                f"{parameter} must be robots a step, such as 0.5, in an area without metres, not {value!r:.80}"
             )
-        number *= Fraction(seconds_per_step(area, speed))
+        number *= Fraction(seconds_per_step(area) if step_seconds is None else step_seconds)
     # Of large flows nobody sees the fraction, and kernels multiply them by steps.
     flow = number.limit_denominator(max(1, _FINEST // ceil(number)))
     if not flow or flow > MOST_FLOW:
@@ -60,10 +58,23 @@ def flow_from(parameter: str, value: object, area: Area, speed: float = 1.0) -> 
     return flow
 
 
-def flow_in_words(flow: Fraction, area: Area, speed: float = 1.0) -> str:
-    """Return a flow as text: in metres robots a second, else robots a step."""
-    if area.frame is not None:
-        return f"{float(flow) / seconds_per_step(area, speed):.4g}/s"
+def check_flow(parameter: str, value: object) -> Fraction:
+    """Return the number in a flow, a step or a second; raise ScenarioError if there is none."""
+    number = _number(value)
+    if number is None or not 0 < number <= MOST_FLOW:
+        raise ScenarioError(f"{parameter} must be {_RULE}; not {value!r:.80}")
+    return number
+
+
+def plain_flow(flow: int | Fraction | None) -> int | float | None:
+    """Return a flow as a plain number, for JSON."""
+    return float(flow) if isinstance(flow, Fraction) else flow
+
+
+def flow_in_words(flow: Fraction, area: Area, step_seconds: float | None = None) -> str:
+    """Return a flow as text: robots a second where it is known how long a step lasts, else a step."""
+    if step_seconds is not None:
+        return f"{float(flow) / step_seconds:.4g}/s"
     return f"{flow} a {'step' if area.tessellation.clock == 'steps' else 'tick'}"
 
 

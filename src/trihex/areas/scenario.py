@@ -13,12 +13,13 @@ from numpy.typing import NDArray
 
 from trihex.areas.area import Area
 from trihex.areas.clearance import check_cell_size, check_rules, usual_following
-from trihex.areas.door import Door, doors_from
-from trihex.areas.flow import flow_from
+from trihex.areas.door import Door, make_doors
+from trihex.areas.flow import flow_from, flow_in_words
 from trihex.areas.nearest import nearest_free_cell
 from trihex.areas.places import cells_from
 from trihex.areas.schedule import Schedule, schedule_of
 from trihex.areas.tessellation import CLOCKS
+from trihex.areas.zone import Zone
 from trihex.errors import ScenarioError, check_choice, check_type, check_whole, is_whole
 from trihex.record import Record, counted, read_only, short
 
@@ -71,8 +72,8 @@ class Scenario(Record):
         so until then a robot waits. One that starts on a destination has arrived at step 0 all the same. Default: 0.
     doors : mapping, or sequence, optional
         Places that only so many robots enter in a step, exits or passages: flows by the names of zones, such as
-        ``{"north": "1.6/s"}``, or pairs (places, flow), or `Door`. Where a destination is one, its flow stands in the
-        place of a `destination_capacity` that is a fraction; one that is whole holds as well.
+        ``{"north": "1.6/s"}``, or pairs (places, flow), or what `make_doors` makes. Where a destination is one, its
+        flow stands in the place of a `destination_capacity` that is a fraction; one that is whole holds as well.
 
     Raises
     ------
@@ -121,7 +122,7 @@ class Scenario(Record):
         if area.frame is not None:
             check_cell_size(area.tessellation, area.frame, self.following)
             check_rules(area.tessellation, area.frame, self.crossing, self.destination_capacity)
-        self._set("doors", doors_from(area, self.doors))
+        self._set("doors", make_doors(area, self.doors))
         for parameter, one in (("destinations", "destination"), ("robots", "robot")):
             cells = cells_from(area, getattr(self, parameter), parameter, ScenarioError)
             self._check_free(cells, one)
@@ -232,7 +233,25 @@ class Scenario(Record):
     @cached_property
     def schedule(self) -> Schedule:
         """When those cells may be entered that let robots in by a flow: doors, and destinations of such a capacity."""
-        return schedule_of(self.doors, self.destinations, self.destination_capacity)
+        if not self.doors:
+            return schedule_of((), self.destinations, self.destination_capacity, np.ones(self.destinations.size, bool))
+        from trihex.areas.entries import ways_into_destinations
+
+        entered: NDArray[np.bool_] = np.asarray((ways_into_destinations(self) >= 0).any(axis=1))
+        return schedule_of(self.doors, self.destinations, self.destination_capacity, entered)
+
+    @property
+    def exit_zones(self) -> tuple[Zone, ...]:
+        """The zones of the area, without those that are doors which robots only pass."""
+        passed = {door.name for door in self.doors if not np.isin(door.cells, self.destinations).any()}
+        return tuple(zone for zone in self.area.zones if zone.name not in passed)
+
+    def flows_in_words(self, step_seconds: float | None = None) -> dict[str, str]:
+        """Return how many robots each door lets in, by its name or the place of its first cell: a second, or a step."""
+        return {
+            door.name or self.area.name_of_cell(int(door.cells[0])): flow_in_words(door.flow, self.area, step_seconds)
+            for door in self.doors
+        }
 
     @property
     def corner_rule(self) -> int:

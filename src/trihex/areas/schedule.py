@@ -25,8 +25,8 @@ class Schedule(Record):
     """When cells may be entered: up to step t by ``(rate * t + phase) // period`` robots.
 
     Of a door with k cells and a flow of p / q the first robot is let in by the first cell, the next one by the second,
-    and so on in turn; the j-th of its cells, from 0, has rate p, period q * k and phase q * (k - 1 - j). So a cell needs
-    no other one to know when it opens, and a plan for doors is still a flow.
+    and so on in turn; the j-th of its cells, from 0, has rate p, period q * k and phase q * (k - 1 - j). So no cell
+    needs another one to know when it opens, and a plan for doors is still a flow.
 
     Parameters
     ----------
@@ -69,15 +69,24 @@ class Schedule(Record):
         return doors
 
 
-def schedule_of(doors: Sequence[Door], destinations: Ints, capacity: int | Fraction | None) -> Schedule:
-    """Return the schedule of doors, and of all other destinations if their capacity is a fraction."""
+def schedule_of(
+    doors: Sequence[Door], destinations: Ints, capacity: int | Fraction | None, entered: NDArray[np.bool_]
+) -> Schedule:
+    """Return the schedule of doors, and of all other destinations if their capacity is a fraction.
+
+    Destinations of a door that nobody can enter, as all around them are destinations or barriers, take no turns;
+    ``entered`` tells of each destination whether anybody can.
+    """
+    inner = destinations[~entered]
     own = list(doors)
     if isinstance(capacity, Fraction):
         left = np.setdiff1d(destinations, np.concatenate([np.empty(0, np.int64), *(door.cells for door in doors)]))
         own += [Door(left[i : i + 1], capacity) for i in range(left.size)]
     columns = [np.empty((4, 0), dtype=np.int64)]
     for door in own:
-        count, (rate, period) = door.cells.size, door.flow.as_integer_ratio()
+        cells, (rate, period) = np.setdiff1d(door.cells, inner), door.flow.as_integer_ratio()
+        cells = cells if cells.size else door.cells
+        count = cells.size
         turn = np.arange(count - 1, -1, -1)
-        columns.append(np.stack(np.broadcast_arrays(door.cells, rate, period * count, period * turn)))
+        columns.append(np.stack(np.broadcast_arrays(cells, rate, period * count, period * turn)))
     return Schedule(*(read_only(np.ascontiguousarray(column)) for column in np.concatenate(columns, axis=1)))

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from trihex.cli.progress import bar
-from trihex.cli.types import Metres, Name, Place, Seconds, Share, Whole
+from trihex.cli.types import Flow, FlowOf, Metres, Name, Place, Seconds, Share, Whole
 
 if TYPE_CHECKING:
     from trihex.areas import Area, Scenario
@@ -22,7 +22,7 @@ PATH = click.Path(path_type=Path)
 
 
 # What `rule_options` adds, and what `formats.options.AreaOptions` takes besides the tessellation.
-RULES = ("waiting_cost", "crossing", "corners", "destination_capacity", "clock", "following", "destination")
+RULES = ("waiting_cost", "crossing", "corners", "destination_capacity", "clock", "following", "destination", "capacity")
 _PLACE = (
     *("cell_size", "robot_radius", "clearance", "unknown", "threshold", "invert", "resolution", "align"),
     *("walls", "exits", "rooms", "unit", "wall_thickness"),
@@ -84,8 +84,16 @@ def rule_options(command: Command) -> Command:
     for option in (
         click.option(
             "--destination-capacity",
-            type=Whole(1),
-            help="Robots that may enter one destination in one step. [default: any number; 1 in metres]",
+            type=Flow(),
+            help="Robots that may enter one destination in one step, as 1 or 0.5, or in metres a second, as 1.6/s. "
+            "[default: any number; 1 in metres]",
+        ),
+        click.option(
+            "--capacity",
+            type=FlowOf(),
+            multiple=True,
+            help="How many robots may enter an exit or a door, a zone by its name or a cell, as north=1.6/s or "
+            "3,4=0.5; may be repeated.",
         ),
         click.option(
             "--crossing",
@@ -213,8 +221,11 @@ def _changed(draft: Draft, options: dict[str, Any]) -> Draft:
     from trihex.areas import cells_from
     from trihex.errors import ScenarioError
 
-    rules = [name for name in RULES if name != "destination"]
+    rules = [name for name in RULES if name not in ("destination", "capacity")]
     changes: dict[str, Any] = {name: options[name] for name in rules if options.get(name) is not None}
+    if options.get("capacity"):
+        told = {str(place): (place, flow) for place, flow in options["capacity"]}
+        changes["doors"] = (*(door for door in draft.doors if str(door[0]) not in told), *told.values())
     if options.get("destination"):
         cells = [_cell_of(draft.area, place) for place in options["destination"]]
         changes["destinations"] = cells_from(draft.area, cells, "--destination", ScenarioError)
@@ -327,7 +338,10 @@ def read_judged(
     if options["destination"]:  # whoever names a barrier here is wrong, not the plan
         replace(draft, robots=None).complete()
     scenario = claimed(draft.complete) if for_judge else draft.complete()
-    return plan if scenario == plan.scenario else replace(plan, scenario=scenario, optimal=False)
+    is_same = scenario == plan.scenario
+    if is_same and scenario.area.ground is None:
+        return plan
+    return replace(plan, scenario=scenario, optimal=plan.optimal and is_same)  # the ground is no part of it
 
 
 def read_played(path: Path, area: Path | None, options: dict[str, Any], **more: Any) -> Motion:

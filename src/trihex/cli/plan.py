@@ -89,7 +89,7 @@ def command(
     seconds = {"read": perf_counter() - begin}
     outputs = draft.outputs | outputs
     _check_outputs(outputs, write_scenario)
-    draft = replace(draft, outputs=outputs)  # speed tells which second is which step
+    draft = replace(draft, outputs=outputs)  # speed tells how long a step lasts
     planner = planner or draft.planner or "fcost"
     planner_options = {**(draft.planner_options if planner == draft.planner else {}), **_parsed(planner_option)}
     check_planner_options(planner, planner_options)

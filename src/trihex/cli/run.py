@@ -23,7 +23,7 @@ from trihex.cli.options import (
 )
 from trihex.cli.outputs import check_outputs, tell_written
 from trihex.cli.progress import bar
-from trihex.cli.texts import exit_lines
+from trihex.cli.texts import door_lines, exit_lines
 from trihex.cli.types import Amount, Name, Seconds, Share, Whole
 
 
@@ -273,6 +273,7 @@ def run_lines(report: Any) -> list[str]:
         f"{numbers['arrived']} arrived in {numbers['steps']} steps, {ends}; {numbers['events']} events, "
         f"{numbers['refused_events']} refused",
         *exit_lines(numbers["arrivals_of_exit"], numbers["arrived"]),
+        *door_lines(numbers),
         f"total time {numbers['total_time']}; with full knowledge and no events {numbers['reference_time']} "
         f"({numbers['reference_planner']}){price}; lower bound {numbers['lower_bound']}",
         f"{100 * numbers['known']:.1f} % of the cells known, {numbers['repairs']} repairs touched "

@@ -29,6 +29,7 @@ def report_lines(report: Report) -> list[str]:
         f"total time {report.total_time} ({report.total_distance} moving, {report.total_waiting} waiting{before}), "
         f"lower bound {report.lower_bound} ({report.lower_bound_name}), gap {gap}",
         *exit_lines(report.arrivals_of_exit, report.arrived_count),
+        *door_lines(numbers),
         *([seconds_line(numbers, scenario.step_word)] if numbers["last_arrival_seconds"] is not None else []),
         verdict(report.audit),
         *corner_lines(report.plan, report.corner_moves, report.squeezing_moves),
@@ -44,6 +45,13 @@ def exit_lines(arrivals: Mapping[str, int], arrived: int) -> list[str]:
     elsewhere = arrived - sum(arrivals.values())
     named = [f"{name} {count}" for name, count in arrivals.items()] + [f"elsewhere {elsewhere}"] * (elsewhere > 0)
     return [f"exits: {', '.join(named)}"]
+
+
+def door_lines(numbers: Mapping[str, Any]) -> list[str]:
+    """Return a line that says how many robots each door lets in, or none where there are none."""
+    if "doors" not in numbers:
+        return []
+    return [f"doors: {', '.join(f'{name} {flow}' for name, flow in numbers['doors'].items())}"]
 
 
 def seconds_line(numbers: Mapping[str, Any], step_word: str = "step") -> str:

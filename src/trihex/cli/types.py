@@ -82,6 +82,40 @@ class Whole(click.ParamType):  # type: ignore[type-arg]
         return number
 
 
+class Flow(click.ParamType):  # type: ignore[type-arg]
+    """Robots a step, or in metres a second, as in ``0.5``, ``1/3`` or ``1.6/s``."""
+
+    name = "flow"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return the text, or a whole number."""
+        from trihex.areas import check_flow
+
+        try:
+            check_flow(_name_of(param), value)
+        except TrihexError as error:
+            raise click.UsageError(str(error), ctx) from None
+        return value if (number := _whole(str(value))) is None else number
+
+
+class FlowOf(Flow):
+    """A place and its flow, as in ``north=1.6/s`` or ``3,4=0.5``."""
+
+    def get_metavar(self, param: click.Parameter, ctx: click.Context | None = None) -> str:
+        """Show what is given."""
+        return "PLACE=FLOW"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return the name of a zone, or a list of one cell (x, y), and the flow."""
+        place, _, flow = str(value).rpartition("=")
+        if not place:
+            rule = "the name of a zone or a cell X,Y, =, and a flow, as north=1.6/s or 3,4=0.5"
+            raise click.UsageError(f"{_name_of(param)} must be {rule}, not {value!r}", ctx)
+        numbers = [_whole(part) for part in place.split(",")]
+        where = [tuple(numbers)] if len(numbers) == 2 and None not in numbers else place
+        return where, super().convert(flow, param, ctx)
+
+
 class Amount(click.ParamType):  # type: ignore[type-arg]
     """A number from 0 to `most`."""
 

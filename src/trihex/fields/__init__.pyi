@@ -12,6 +12,9 @@ from .living import (
     LivingField as LivingField,
     Repair as Repair,
 )
+from .priced import (
+    PricedField as PricedField,
+)
 from .schemes import (
     DScheme as DScheme,
     NScheme as NScheme,

@@ -4,12 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Area, Scenario, random_robots, random_start_times, start_times_of
+from trihex.areas import (
+    Area,
+    Door,
+    Scenario,
+    flow_from,
+    make_doors,
+    random_robots,
+    random_start_times,
+    seconds_per_step,
+    start_times_of,
+)
 from trihex.errors import ScenarioError
 from trihex.record import Record
 
@@ -29,7 +40,11 @@ class Draft(Record):
     random_count : int, optional
         How many robots to draw by `seed`, instead of `robots`.
     seed : int, optional
-    waiting_cost, destination_capacity : int, optional
+    waiting_cost : int, optional
+    destination_capacity : int, float, Fraction or str, optional
+        A flow, as `Scenario` takes it.
+    doors : tuple of pairs
+        (name of a zone or places, flow), as `Scenario` takes them.
     crossing, corners, clock, following : str, optional
     planner : str, optional
     planner_options : dict
@@ -48,13 +63,14 @@ class Draft(Record):
     waiting_cost: int | None = None
     crossing: str | None = None
     corners: str | None = None
-    destination_capacity: int | None = None
+    destination_capacity: int | float | Fraction | str | None = None
     planner: str | None = None
     planner_options: dict[str, Any] = field(default_factory=dict)
     outputs: dict[str, Any] = field(default_factory=dict)
     clock: str | None = None
     following: str | None = None
     notes: tuple[str, ...] = ()
+    doors: tuple[tuple[Any, Any], ...] = ()
     start_times: NDArray[Any] | str | None = None
 
     @property
@@ -81,13 +97,15 @@ class Draft(Record):
         if len(destinations) == 0:
             raise ScenarioError("destinations must name at least one cell")
         names = ("crossing", "corners", "clock", "following")
+        capacity, doors = self._flows()
         scenario = kind(
             self.area,
             destinations,  # type: ignore[arg-type]
             () if self.robots is None else self.robots,  # type: ignore[arg-type]
             waiting_cost=self.waiting_cost,  # type: ignore[arg-type]
-            destination_capacity=self.destination_capacity,
+            destination_capacity=capacity,
             seed=self.seed,
+            doors=doors,
             **{name: rule for name in names if (rule := getattr(self, name)) is not None},
         )
         if self.random_count is not None:
@@ -95,15 +113,29 @@ class Draft(Record):
             scenario = scenario.with_robots(_draw(scenario, self.random_count, seed), seed)
         elif self.robots is None:
             return scenario
-        return scenario if self.start_times is None else replace(scenario, start_times=self._start_times(scenario))
+        if self.start_times is None:
+            return scenario
+        return replace(scenario, start_times=self.steps_of_starts(scenario.area, scenario.robot_count))
 
-    def _start_times(self, scenario: Scenario) -> NDArray[np.int64]:
-        """Return the start times of the robots of a scenario, in steps."""
+    def steps_of_starts(self, area: Area, count: int) -> NDArray[np.int64]:
+        """Return the start times of so many robots, in steps of the area."""
         given, pace = self.start_times, {n: v for n, v in self.outputs.items() if n in ("speed", "turn_time")}
+        if given is None:
+            return np.zeros(count, dtype=np.int64)
         if isinstance(given, str):
-            return random_start_times(scenario.area, scenario.robot_count, given, self.seed or 0, **pace)
+            return random_start_times(area, count, given, self.seed or 0, **pace)
         times = np.asarray(given)
-        return start_times_of(scenario.area, times, **pace) if times.dtype.kind == "f" else times
+        return start_times_of(area, times, **pace) if times.dtype.kind == "f" else times
+
+    def _flows(self) -> tuple[int | Fraction | None, tuple[Door, ...]]:
+        """Return the capacity of destinations and the doors, by how long a step lasts as outputs say it."""
+        area = self.area if self.clock is None else self.area.with_clock(self.clock)
+        pace = {n: v for n, v in self.outputs.items() if n in ("speed", "turn_time")} if area.frame is not None else {}
+        capacity = self.destination_capacity
+        if capacity is not None:
+            lasts = None if area.frame is None else seconds_per_step(area, **pace)
+            capacity = flow_from("destination_capacity", capacity, area, lasts)
+        return capacity, make_doors(area, self.doors, **pace)
 
 
 def _draw(scenario: Scenario, count: int, seed: int) -> NDArray[np.int64]:
@@ -123,6 +155,11 @@ def draft_of(scenario: Scenario) -> Draft:
     """Return the draft that completes to `scenario`; a waiting cost like that of an edge stays so if costs change."""
     names = ("destinations", "robots", "seed", "crossing", "corners", "destination_capacity", "clock", "following")
     waiting_cost = None if scenario.waiting_cost == scenario.area.tessellation.waiting_cost else scenario.waiting_cost
+    zones = {zone.name: zone.cells.tolist() for zone in scenario.area.zones}
+    doors = tuple(
+        (door.name if zones.get(door.name) == door.cells.tolist() else door.cells.tolist(), door.flow)
+        for door in scenario.doors
+    )
     given = {name: getattr(scenario, name) for name in names}
     start_times = scenario.start_times if scenario.has_start_times else None
-    return Draft(scenario.area, waiting_cost=waiting_cost, start_times=start_times, **given)
+    return Draft(scenario.area, waiting_cost=waiting_cost, start_times=start_times, doors=doors, **given)

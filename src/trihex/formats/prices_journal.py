@@ -71,5 +71,12 @@ def _digest(plan: Plan) -> str:
     scenario: Scenario = plan.scenario
     rules = (scenario.area.barriers.shape, scenario.area.tessellation, scenario.waiting_cost, scenario.crossing)
     more = (scenario.corners, scenario.destination_capacity, scenario.clock, scenario.following, plan.total_time)
-    arrays = (scenario.area.barriers, np.sort(scenario.destinations), np.sort(scenario.robots))
-    return sha256(repr((rules, more)).encode() + b"".join(array.tobytes() for array in arrays)).hexdigest()[:32]
+    doors = [(door.cells.tolist(), door.flow) for door in scenario.doors]
+    order = np.argsort(scenario.robots)
+    arrays = (
+        scenario.area.barriers,
+        np.sort(scenario.destinations),
+        scenario.robots[order],
+        scenario.start_times[order],
+    )
+    return sha256(repr((rules, more, doors)).encode() + b"".join(array.tobytes() for array in arrays)).hexdigest()[:32]

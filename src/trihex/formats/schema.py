@@ -10,6 +10,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationErr
 from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
+from trihex.areas import check_flow
 from trihex.errors import ScenarioError, check_choice
 
 LARGEST = 2**30
@@ -29,6 +30,17 @@ Count = Annotated[int, Field(ge=1, le=LARGEST)]
 Number = Annotated[float, Field(allow_inf_nan=False, strict=False)]
 Cells = list[Annotated[list[Annotated[int, Field(ge=-LARGEST, le=LARGEST)]], Field(min_length=2, max_length=2)]]
 Points = list[Annotated[list[Number], Field(min_length=2, max_length=2)]]
+
+
+def _flow(value: Any) -> Any:
+    if isinstance(value, bool) or not isinstance(value, int | float | str):
+        raise ValueError(f"must be a number, or text such as '1.6/s', not {value!r:.60}")
+    check_flow("it", value)
+    return value
+
+
+#: How many robots a step or a second; kept as it stands in the file.
+Flow = Annotated[Any, AfterValidator(_flow)]
 
 
 def choice(parameter: str, choices: tuple[str, ...]) -> AfterValidator:

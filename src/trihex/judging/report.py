@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Claim, count_by_zone, seconds_per_step
+from trihex.areas import Claim, count_by_zone, plain_flow, seconds_per_step
 from trihex.bounds import LowerBound, distance_bound, make_lower_bound
 from trihex.errors import check_type
 from trihex.fields import NScheme, make_n_scheme
@@ -117,7 +117,7 @@ class Report(Record):
     def arrivals_of_exit(self) -> dict[str, int]:
         """How many robots arrive in each zone of the area, by its name."""
         plan = self.plan
-        return count_by_zone(plan.scenario.area.zones, plan.last_cell_of_robot[plan.arrived])
+        return count_by_zone(plan.scenario.exit_zones, plan.last_cell_of_robot[plan.arrived])
 
     @property
     def is_complete(self) -> bool:
@@ -162,7 +162,8 @@ class Report(Record):
             "costs": area.tessellation.costs,
             "corners": scenario.corners,
             "crossing": scenario.crossing,
-            "destination_capacity": scenario.destination_capacity,
+            "destination_capacity": plain_flow(scenario.destination_capacity),
+            **({"doors": scenario.flows_in_words(self.step_seconds)} if scenario.doors else {}),
             "clock": scenario.clock,
             "following": scenario.following,
             "cells": area.cell_count,

@@ -12,9 +12,17 @@ _FIELD = ("fields.front",)
 _DIRECTIONS = (*_FIELD, "areas.moves", "fields.directions")
 _REPAIR = (*_DIRECTIONS, "fields.repair", "fields.changing")
 _GREEDY = (*_DIRECTIONS, "planners.greedy", "planners.cells", "planners.rows", "plans.replay")
-_FCOST = (*_GREEDY, *_REPAIR, "planners.fcost", "planners.slots", "planners.lanes", "planners.laying")
+_FCOST = (
+    *_GREEDY,
+    *_REPAIR,
+    "planners.fcost",
+    "planners.slots",
+    "planners.lanes",
+    "planners.laying",
+    "planners.catchments",
+)
 _TIMELY = (*_DIRECTIONS, "planners.timely", "planners.tick_rows", "planners.slots", "plans.replay")
-_ASTAR = (*_FIELD, "areas.moves", "planners.astar", "planners.reservations", "plans.replay")
+_ASTAR = (*_FIELD, "areas.moves", "planners.astar", "planners.estimates", "planners.reservations", "plans.replay")
 _OPTIMUM = (*_FIELD, "areas.moves", "fields.steps", "optimum.paths", "optimum.single", "plans.replay")
 _BOUND = ("areas.moves", "fields.steps", "bounds.cuts", "bounds.gates", "bounds.meetings", "bounds.serving")
 _EXECUTION = (*_REPAIR, "running.stepping", "running.lines")
@@ -33,7 +41,15 @@ KERNELS_OF: dict[str, tuple[str, ...]] = {
     "optimal": _OPTIMUM,  # and, where robots crowd, one of two more: `trihex.planners.uses_of`
     "optimal_crowd": (*_OPTIMUM, "optimum.serving"),
     "optimal_earliest": (*_OPTIMUM, *_FCOST, "optimum.earliest", "optimum.laid"),
-    "certificate": (*_FIELD, "areas.moves", "fields.steps", "optimum.fair", "optimum.laid", "optimum.tolls", "plans.replay"),
+    "certificate": (
+        *_FIELD,
+        "areas.moves",
+        "fields.steps",
+        "optimum.fair",
+        "optimum.laid",
+        "optimum.tolls",
+        "plans.replay",
+    ),
     "prices": (
         *_OPTIMUM,
         *("bounds.cuts", "optimum.doors", "optimum.earliest", "optimum.laid", "optimum.late"),

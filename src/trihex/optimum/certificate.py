@@ -75,9 +75,7 @@ def check_certifiable(scenario: Scenario) -> None:
     if scenario.has_start_times:
         raise PlanError("a certificate needs robots that may all begin at once, without start_times")
     if scenario.has_flows:
-        raise PlanError(
-            "a certificate needs destinations that let in as many in each step, without doors that have a flow"
-        )
+        raise PlanError("a certificate needs destinations that let in as many in each step, not doors of a flow")
 
 
 def check_equal_steps(scenario: Scenario) -> None:

@@ -28,8 +28,9 @@ class Network(Record):
     A robot waits, crosses an edge, or enters a lattice vertex within the step and leaves it into the next step; since
     every node takes one robot a step, nobody crosses anybody. Whoever enters a cell that is a door passes its *gate* in
     the same way: that is shut in some steps, while a robot may stay in the cell. Nodes are numbered cells first, then
-    vertices, gates, and destinations. Layer u holds each node at step u - hops: robots on their way to the destination stay in one layer, so that they and the
-    searches for them touch memory in few places. Node i of layer u has the index ``u * node_count + i``.
+    vertices, gates, and destinations. Layer u holds each node at step u - hops: robots on their way to the destination
+    stay in one layer, so that they and the searches for them touch memory in few places. Node i of layer u has the
+    index ``u * node_count + i``.
 
     Costs are reduced, that is cost + value of the head - value of the tail >= 0, in units of their greatest common
     divisor.

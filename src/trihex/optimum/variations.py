@@ -22,6 +22,8 @@ _BUDGET = 500_000
 _LOG = 1 << 16
 # Rows of nodes that are looked at between two looks at the keyboard, for each cell two or three.
 _ROWS = 50_000
+# So many nodes, cells times steps, are many. (10^6 on room-64-64-8 with 500 robots: 0.2 s to exchange, 0.01 to bound.)
+_MANY = 200_000
 
 
 class Variations:
@@ -69,6 +71,11 @@ class Variations:
     def robot_count(self) -> int:
         """Robots that have to go and can arrive."""
         return int(self._laid.start.size)
+
+    @property
+    def is_quick(self) -> bool:
+        """Whether to exchange slots for a door takes no longer than to bound what it saves."""
+        return int(self._laid.words.size) < _MANY
 
     @property
     def all_arrive(self) -> bool:

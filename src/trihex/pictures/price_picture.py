@@ -37,6 +37,8 @@ def picture_of_prices(
     saved, lost = (prices.price_of_cell(kind).reshape(-1) for kind in ("barrier", "choke"))
     cells = make.base_cells(scenario, 2 * _SHADES, 2 * _SHADES + 1, 2 * _SHADES + 2)
     keys: list[Key | Ramp] = []
+    factor = prices.seconds_per_unit(speed)
+    unit, factor = ("units of time", 1.0) if factor is None else ("seconds", factor)
     ramps = (palette.visits_ramp(_SHADES), palette.distance_ramp(_SHADES))
     for values, first, shades, words in (
         (saved, 0, ramps[0], "saved if open"),
@@ -46,7 +48,7 @@ def picture_of_prices(
         if most > 0:
             rows = values > 0
             cells.reshape(-1)[rows] = first + np.rint(values[rows] * ((_SHADES - 1) / most)).astype(np.int64)
-            keys.append(Ramp(colours_of(shades), words, "0", prices.told(most, speed)))
+            keys.append(Ramp(colours_of(shades), words, "0", f"{most * factor:.6g}"))
     marks: list[Mark] = list(make.destination_marks(scenario, scale))
     door = prices.cell[prices.kind == "door"][prices.robots[prices.kind == "door"] == 0]
     if door.size:
@@ -58,5 +60,5 @@ def picture_of_prices(
     colours = np.vstack([*ramps, colour_rows([FREE, BARRIER, DESTINATION])])
     bold = (*range(2 * _SHADES), 2 * _SHADES + 1, 2 * _SHADES + 2)
     scene = Scene(area, cells, colours, scale, bold, tuple(marks), tuple(keys))
-    more = f", {scenario.robot_count} robots" + ("" if prices.is_complete else ", not all proven")
+    more = f", {scenario.robot_count} robots, {unit}" + ("" if prices.is_complete else ", not all proven")
     return titled(scene, title, "Prices", more, legend)

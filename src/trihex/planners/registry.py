@@ -55,8 +55,8 @@ def planner_named(name: str) -> Planner:
 def uses_of(name: str, scenario: Scenario) -> list[str]:
     """Return what a planner needs to be compiled for a scenario, as keys of `trihex.kernels.needs.KERNELS_OF`.
 
-    Where time is not in steps alone, or robots have start times or doors a flow, others go from tick to tick; what `optimal` does where
-    robots crowd depends on whether all steps cost the same.
+    Where time is not in steps alone, robots have start times or doors a flow, others go from tick to tick; what
+    `optimal` does where robots crowd depends on whether all steps cost the same.
     """
     if name != "optimal":
         return [use_of(name, scenario.moves_by_steps)]

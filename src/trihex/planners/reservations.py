@@ -11,6 +11,7 @@ from trihex.errors import TooLargeError
 from trihex.fields import NScheme
 from trihex.kernels.codes import NOT_REACHED, WAIT
 from trihex.memory import GIB, limit_or_default
+from trihex.planners.estimates import Estimates
 
 _BUDGET = 200_000  # nodes looked at in one call of a kernel
 
@@ -70,6 +71,7 @@ class Reservations:
             let_in=np.zeros(0, dtype=np.int32),
             doors=scenario.schedule.for_kernels(layout),
         )
+        self._estimates = Estimates(self._terrain)
         self._state = np.zeros(astar.STATE_SIZE, dtype=np.int64)
         self._make_lists(1 << 12)
 
@@ -109,14 +111,12 @@ class Reservations:
         TooLargeError
             If they would take more than the limit.
         """
-        per_step, size, ends = max(1, self._reserved.per_tick), self.distance.size, self._reserved.ends
-        have = self._reserved.rows // per_step
+        size, ends, have = self.distance.size, self._reserved.ends, self._steps
         if steps <= have:
             return
         steps = max(steps, have + have // 2)
-        rows = steps * per_step
+        rows, need = steps * max(1, self._reserved.per_tick), self._bytes_of(steps)
         lets_in = steps * ends * self._has_doors
-        need = rows * (size + 4 * ends) + steps * size * self._forbids + 4 * lets_in
         if need > self._limit:
             raise TooLargeError(
                 f"reservations would take {need / GIB:.1f} GiB ({steps} steps of {size} cells), more than "
@@ -129,6 +129,18 @@ class Reservations:
             entries=_grown(self._reserved.entries, rows * ends),
             let_in=_grown(self._reserved.let_in, lets_in),
         )
+
+    @property
+    def _steps(self) -> int:
+        """How many steps the tables have rows for."""
+        return int(self._reserved.rows // max(1, self._reserved.per_tick))
+
+    def _bytes_of(self, steps: int) -> int:
+        """Return what tables for so many steps take."""
+        size = self.distance.size
+        rows = steps * max(1, self._reserved.per_tick)
+        ends = self._reserved.ends
+        return int(rows * (size + 4 * ends) + steps * (size * self._forbids + 4 * ends * self._has_doors))
 
     def hold(self, start: int, start_time: int) -> None:
         """Reserve the site of a robot that stands there until it may begin to move."""
@@ -146,14 +158,16 @@ class Reservations:
         """
         from trihex.planners.kernels import astar
 
+        self._estimates.make_room(self._steps, self._limit - self._bytes_of(self._steps))
         status = astar.BUDGET_SPENT
         while status in (astar.BUDGET_SPENT, astar.LIST_FULL):
             if status == astar.LIST_FULL:
                 self._make_lists(2 * self._nodes.site.size)
-            space = (self._nodes, self._heap, self._state)
+            space = (self._estimates.tables, self._nodes, self._heap, self._state)
             status = astar.search(start, start_time, self._terrain, self._reserved, is_shut, *space, _BUDGET)
         if status == astar.NOTHING:
             return None
+        self._estimates.learn(self._nodes, self._state, for_good=is_shut.size == 0)
         actions = np.full(int(self._nodes.step[self._state[astar.GOAL]]), WAIT, dtype=np.uint8)
         return actions[actions.size - astar.write_way(self._nodes, self._state, actions) - start_time :].copy()
 
@@ -170,6 +184,8 @@ class Reservations:
         """Free a way that was reserved."""
         from trihex.planners.kernels import reservations
 
+        if self._estimates.tables.rows:
+            self._estimates.forget()
         reservations.unreserve(start, actions, self._terrain, self._reserved)
 
     def straighten_way(

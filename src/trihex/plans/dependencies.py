@@ -129,6 +129,8 @@ def make_dependencies(plan: Plan) -> Dependencies:
     check_type("plan", plan, Plan)
     if plan.jumps.size:
         raise PlanError("a plan in which robots jump has no dependencies")
+    if plan.scenario.has_flows:
+        raise PlanError("dependencies tell who waits for whom, not for how long: doors must have no flow")
     points = _waypoints_of(plan)
     _check_moves(plan, points)
     is_inside = np.isin(points.cell, plan.scenario.destinations)

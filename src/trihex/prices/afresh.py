@@ -29,16 +29,19 @@ class AfreshVariations:
     """
 
     unit = 1
+    is_quick = False
 
     def __init__(self, plan: Plan, n_scheme: NScheme, memory_limit: int | None) -> None:
         self._scenario, self._memory_limit = plan.scenario, memory_limit
-        self._total = self._least(plan.scenario)
-        if plan.total_time != self._total or not plan.arrived[_can_arrive(n_scheme)].all():
-            raise PlanError(
-                f"prices need the best plan: its sum of t_r is {plan.total_time}, the least is {self._total}"
-            )
+        self._total = plan.total_time
         self.robot_count = int(_can_arrive(n_scheme).size)
         self.all_arrive = self.robot_count == plan.scenario.robot_count
+
+    def check(self, plan: Plan) -> None:
+        """Raise PlanError unless the plan is the best, and whole."""
+        least = self._least(plan.scenario)
+        if plan.total_time != least or plan.arrived.sum() < self.robot_count:
+            raise PlanError(f"prices need the best plan: its sum of t_r is {plan.total_time}, the least is {least}")
 
     def robots_if_changed(self, cell: int) -> int:
         """Return how many robots could arrive if a cell were opened or closed."""
@@ -68,6 +71,10 @@ class AfreshVariations:
             tell(place + 1)
         return most
 
+    def most_saved_by_door(self, cell: int) -> int:
+        """Return what is saved at most if a barrier becomes a destination: much less, after some more work."""
+        return self._total - make_lower_bound(make_n_scheme(self._changed(cell, is_door=True))).value
+
     def saved_by_door(self, cell: int) -> int:
         """Return what is saved if a barrier becomes a destination."""
         return self._total - self._least(self._changed(cell, is_door=True))
@@ -79,8 +86,16 @@ class AfreshVariations:
         barriers.reshape(-1)[cell] = not barriers.reshape(-1)[cell]
         area = Area(scenario.area.tessellation, barriers, frame=scenario.area.frame)
         destinations = np.append(scenario.destinations, cell) if is_door else scenario.destinations
-        robots = scenario.robots[scenario.robots != cell]
-        return replace(scenario, area=area, destinations=destinations, robots=robots)
+        stays = scenario.robots != cell
+        doors = tuple(replace(door, cells=door.cells[door.cells != cell]) for door in scenario.doors)
+        return replace(
+            scenario,
+            area=area,
+            destinations=destinations,
+            robots=scenario.robots[stays],
+            start_times=scenario.start_times[stays],
+            doors=tuple(door for door in doors if door.cells.size),
+        )
 
     def _least(self, scenario: Scenario) -> int:
         plan = make_plan(scenario, "optimal", memory_limit=self._memory_limit)

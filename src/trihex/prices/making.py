@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from heapq import heapify, heappop, heappush
 from typing import Any
 
 import numpy as np
@@ -86,7 +87,7 @@ def make_prices(
     else:
         asked = np.unique(cells_from(area, cells, "cells", PlanError))
     asked = np.setdiff1d(asked, plan.scenario.destinations)
-    work = _Pricing(_variations(plan, n_scheme, memory_limit), known or {}, tell, stop, progress)
+    work = _Pricing(*_variations(plan, n_scheme, memory_limit), known or {}, tell, stop, progress)
     is_barrier = area.barriers.reshape(-1)[asked]
     barriers, chokes = asked[is_barrier], asked[~is_barrier]
     steps = (
@@ -102,13 +103,15 @@ def make_prices(
     return Prices(plan, *(columns if work.rows else [()] * 5))
 
 
-def _variations(plan: Plan, n_scheme: NScheme, memory_limit: int | None) -> Any:
-    """Return what tells of optima with one cell changed."""
+def _variations(plan: Plan, n_scheme: NScheme, memory_limit: int | None) -> tuple[Any, AfreshVariations]:
+    """Return what tells of optima with one cell changed, and what bounds them."""
+    afresh = AfreshVariations(plan, n_scheme, memory_limit)
     try:
         check_equal_steps(plan.scenario)
     except PlanError:
-        return AfreshVariations(plan, n_scheme, memory_limit)
-    return Variations(plan, n_scheme=n_scheme, memory_limit=memory_limit)
+        afresh.check(plan)
+        return afresh, afresh
+    return Variations(plan, n_scheme=n_scheme, memory_limit=memory_limit), afresh
 
 
 class _Pricing:
@@ -117,12 +120,13 @@ class _Pricing:
     def __init__(
         self,
         variations: Any,
+        bounds: AfreshVariations,
         known: Mapping[tuple[str, int], int],
         tell: Callable[[str, int, int], None] | None,
         stop: Callable[[], bool] | None,
         progress: Callable[[int, int], None] | None,
     ) -> None:
-        self.variations, self.known = variations, known
+        self.variations, self.bounds, self.known = variations, bounds, known
         self.tell, self.stop, self.progress = tell, stop, progress
         self.rows: list[tuple[str, int, int, int, bool]] = []
         self.done = self.total = 0
@@ -150,12 +154,17 @@ class _Pricing:
         cells = self._of_the_same_robots("door", cells)
         self.rows = [("door", -1, 0, 0, True)]  # of the best so far
         most = self.variations.most_saved_by_doors(cells, self._told) * self.variations.unit
-        for place in np.lexsort((cells, -most)).tolist():
-            best = self.rows[0]
-            if most[place] <= best[2]:
-                break
-            self._price("door", int(cells[place]), self.variations.saved_by_door)
-            row = self.rows.pop()
+        # Those that may save most come first, with a rough bound, then with a good one, then they are tried.
+        heap = [(-int(most[place]), int(cell), self.variations.is_quick) for place, cell in enumerate(cells.tolist())]
+        heapify(heap)
+        while heap and -heap[0][0] > self.rows[0][2]:
+            bound, cell, is_good = heappop(heap)
+            if not is_good and ("door", cell) not in self.known and not self._is_to_stop():
+                bound = max(bound, -int(self.bounds.most_saved_by_door(cell)))
+                heappush(heap, (bound, cell, True))
+                continue
+            self._price("door", cell, self.variations.saved_by_door)
+            row, best = self.rows.pop(), self.rows[0]
             if not row[4]:
                 self.rows[0] = (*best[:4], False)
                 break
@@ -183,13 +192,16 @@ class _Pricing:
         price = self.known.get((kind, cell))
         if price is not None:
             self._add(kind, cell, price // unit)
-        elif self.stop and self.stop():
+        elif self._is_to_stop():
             self.rows.append((kind, cell, least * unit, 0, False))
         else:
             price = find(cell)
             if self.tell:
                 self.tell(kind, cell, price * unit)
             self._add(kind, cell, price)
+
+    def _is_to_stop(self) -> bool:
+        return self.stop is not None and self.stop()
 
     def _add(self, kind: str, cell: int, price: int, robots: int = 0) -> None:
         """Add a row that is proven; `price` is in units of the variations."""

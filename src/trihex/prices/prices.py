@@ -83,35 +83,34 @@ class Prices(Record):
         prices[self.cell[rows]] = self.price[rows]
         return read_only(prices.reshape(area.height, area.width))
 
-    def seconds(self, speed: float = 1.0) -> NDArray[np.float64] | None:
-        """Return the prices in seconds in an area with a frame; None where there is none, or steps cost differently."""
+    def seconds_per_unit(self, speed: float = 1.0) -> float | None:
+        """Return how many seconds a unit of time is in an area with a frame; None in others, or if steps differ."""
         scenario = self.plan.scenario
         if scenario.area.frame is None or not self.has_equal_steps:
             return None
-        return read_only(self.price / scenario.waiting_cost * seconds_per_step(scenario.area, speed))
+        return seconds_per_step(scenario.area, speed) / scenario.waiting_cost
 
     def told(self, price: int, speed: float = 1.0) -> str:
-        """Return a price in words: "3 min 20 s" where `seconds` has any, else units of time."""
-        scenario = self.plan.scenario
-        if scenario.area.frame is None or not self.has_equal_steps:
+        """Return a price in words: "3 min 20 s" where units of time are seconds, else how many units."""
+        factor = self.seconds_per_unit(speed)
+        if factor is None:
             return f"{price} units of time"
-        seconds = price / scenario.waiting_cost * seconds_per_step(scenario.area, speed)
-        if seconds < 60:
-            return f"{seconds:.3g} s"
-        minutes, seconds = divmod(round(seconds), 60)
+        if price * factor < 60:
+            return f"{price * factor:.3g} s"
+        minutes, seconds = divmod(round(price * factor), 60)
         hours, minutes = divmod(minutes, 60)
         return f"{hours} h {minutes} min" if hours else f"{minutes} min {seconds} s"
 
     def rows(self, speed: float = 1.0) -> list[dict[str, Any]]:
         """Return a row of plain values for each price; seconds only where there are any."""
         x, y = self.plan.scenario.area.cell_to_xy(self.cell)
-        seconds = self.seconds(speed)
+        factor = self.seconds_per_unit(speed)
         rows = []
         for i, kind in enumerate(self.kind.tolist()):
             is_priced = self.robots[i] == 0
             row = {"x": int(x[i]), "y": int(y[i]), "kind": kind, "price": int(self.price[i]) if is_priced else None}
-            if seconds is not None:
-                row["seconds"] = round(float(seconds[i]), 6) if is_priced else None
+            if factor is not None:
+                row["seconds"] = round(int(self.price[i]) * factor, 6) if is_priced else None
             rows.append(row | {"robots": int(self.robots[i]), "proven": bool(self.proven[i])})
         return rows
 

@@ -19,7 +19,7 @@ from trihex.errors import check_type
 from trihex.judging import Conflict, is_reachable
 from trihex.kernels.codes import UNDERWAY
 from trihex.record import Record, counted
-from trihex.running.owning import judge_arrivals, judge_events, judge_owners, moves_of
+from trihex.running.owning import judge_arrivals, judge_doors, judge_events, judge_owners, moves_of
 from trihex.running.run import ARRIVED, BROKEN, GOING, LEFT, Run
 
 Ints = NDArray[np.int64]
@@ -74,11 +74,16 @@ def audit_run(run: Run, limit: int = 100) -> RunAudit:
     """
     check_type("run", run, Run)
     if run.scenario.is_stepwise:
-        found = [*_events(run), *(c for step in _steps(run) for judge in _JUDGES for c in judge(run, step))]
+        doors = judge_doors(run, moves_of(run)[0]) if run.scenario.has_flows else ()
+        found = [*_events(run), *doors, *(c for step in _steps(run) for judge in _JUDGES for c in judge(run, step))]
     else:
         moves, found = moves_of(run)
         found += [conflict for step in _steps(run) for conflict in _judge_moves(run, step)]
-        found += [conflict for judge in (judge_owners, judge_arrivals, judge_events) for conflict in judge(run, moves)]
+        found += [
+            conflict
+            for judge in (judge_owners, judge_doors, judge_arrivals, judge_events)
+            for conflict in judge(run, moves)
+        ]
     found += _ends(run)
     found.sort(key=lambda conflict: conflict.step)
     return RunAudit(run, tuple(found[:limit]), len(found))
@@ -174,7 +179,7 @@ def _judge_meetings(run: Run, step: _Step) -> Iterator[Conflict]:
 
 def _judge_arrivals(run: Run, step: _Step) -> Iterator[Conflict]:
     """Too many robots in a destination, robots that stay on one, and robots that vanish elsewhere."""
-    area, capacity = run.scenario.area, run.scenario.destination_capacity
+    area, capacity = run.scenario.area, run.scenario.entry_limit
     enters = np.flatnonzero(np.isin(step.there, step.destinations))
     for i in enters[run.ended[step.robots[enters]] != step.number].tolist():
         yield _conflict(area, "arrival", step, [i], "robot {0} acts on after it has entered destination {b}")
@@ -183,7 +188,7 @@ def _judge_arrivals(run: Run, step: _Step) -> Iterator[Conflict]:
         if not _opens(run, step.number + 1, int(step.there[i])):
             text = "robot {0} is said to arrive, but is in {b}, which is no destination"
             yield _conflict(area, "arrival", step, [i], text)
-    if capacity is not None:
+    if capacity:
         cells, counts = np.unique(step.there[enters], return_counts=True)
         for cell in cells[counts > capacity].tolist():
             many = enters[step.there[enters] == cell][capacity:].tolist()

@@ -12,6 +12,9 @@ from numpy.typing import NDArray
 
 from trihex.areas import Scenario
 
+# Ticks ahead for which it is kept how many come in by a door: more than any move lasts.
+DOOR_TICKS = 64
+
 
 class Claims:
     """What is claimed, by site; by place of a destination for entries.
@@ -39,6 +42,9 @@ class Claims:
         self._first_vertex_move, self._vertex = scenario.first_vertex_move, layout.vertex_of_direction
         self.left_until, self.passed_until = np.zeros((2, layout.size), dtype=np.int32)
         self.entered_until = np.zeros(max(1, layout.size * self.limit), dtype=np.int32)
+        #: Doors as kernels know them; of each `DOOR_TICKS` counts of robots that come in, and in which ticks these are.
+        self.doors = scenario.schedule.for_kernels(layout)
+        self.let_in, self.let_in_at = np.zeros((2, scenario.schedule.cells.size * DOOR_TICKS), dtype=np.int32)
 
     def left_at(self, heading: NDArray[np.uint8], due: NDArray[np.int32]) -> NDArray[np.int64]:
         """Return the half ticks until which robots own the cells that they leave by moves that end at ticks `due`."""
@@ -53,7 +59,11 @@ class Claims:
         self.passed_until[here + self._vertex[here & 1, heading]] = due[passing]
 
     def enter(self, site: int, due: int) -> None:
-        """Claim a place in a destination: the one that is free first."""
+        """Claim a place in a destination: the one that is free first; and note who comes in by a door."""
+        if self.doors.number.size > 1 and (door := int(self.doors.number[site])):
+            at = (door - 1) * DOOR_TICKS + due % DOOR_TICKS
+            self.let_in[at] = self.let_in[at] * (self.let_in_at[at] == due) + 1
+            self.let_in_at[at] = due
         if self.limit:
             places = self.entered_until[site * self.limit : (site + 1) * self.limit]
             places[places.argmin()] = 2 * due
@@ -70,5 +80,5 @@ class Claims:
 
     def clear(self) -> None:
         """Forget all claims."""
-        for claims in (self.left_until, self.passed_until, self.entered_until):
+        for claims in (self.left_until, self.passed_until, self.entered_until, self.let_in, self.let_in_at):
             claims[:] = 0

@@ -87,6 +87,11 @@ class Execution:
         check_choice("aside", aside, ASIDE, ExecutionError)
         #: What makes plans; None where robots go step by step.
         self.replanner = Replanner(planner, budget) if replan or planner not in STEPPERS else None
+        if self.replanner is not None and scenario.has_flows:
+            raise ExecutionError(
+                f"planner must be greedy or fcost, without replan, where doors have a flow, not {planner!r}"
+                f"{' with replan' * replan}: a plan is followed in its order, not at its times"
+            )
         prepare("execution", field_kernels(scenario.area.tessellation, scenario.corners))
         n_scheme = make_n_scheme(scenario) if n_scheme is None else n_scheme
         self.scenario, self.planner, self.aside = scenario, planner, aside
@@ -297,7 +302,9 @@ class Execution:
         going = np.flatnonzero(can_go & may_move).astype(np.int32)
         order = going[np.argsort(distance[going], kind="stable")]
         if not fleet.claims.is_timed:
-            return self._done(order, self._stepper.step(order, order, fleet))
+            # Where a door may be shut, the first cannot always come nearer.
+            captain = int(order[0]) if order.size and self.scenario.has_flows else -1
+            return self._done(order, self._stepper.step(order, order, fleet, captain))
         lined = np.flatnonzero(can_go & ~fleet.enters)
         # The nearest of all comes nearer or waits: nobody can take its place but by being nearer, and what bars its way
         # is under way and will be over. So all arrive that can, whatever the others do.

@@ -48,7 +48,7 @@ class Stay(NamedTuple):
 def judge_owners(run: Run, moves: list[Move]) -> Iterator[Conflict]:
     """Find robots that own one cell or vertex, exchange cells, or are too many to enter a destination."""
     stays = stays_of(run, moves)
-    capacity = run.scenario.destination_capacity or len(moves) + 1
+    capacity = run.scenario.entry_limit or len(moves) + 1
     for cell, own in stays.items():
         place = run.scenario.area.place_of_cell(cell)
         for one, others in _meetings(own):
@@ -135,6 +135,21 @@ def stays_of(run: Run, moves: list[Move]) -> dict[int, list[Stay]]:
         stays[cell].append(Stay(begin, min(entry, end), robot, False))
         stays[cell].append(Stay(entry, end, robot, True))
     return stays
+
+
+def judge_doors(run: Run, moves: list[Move]) -> Iterator[Conflict]:
+    """Find robots that come into a cell in a step (tick) in which its door lets in fewer."""
+    schedule, width = run.scenario.schedule, run.scenario.area.width
+    door_of_cell = {cell: number for number, cell in enumerate(schedule.cells.tolist())}
+    came: dict[tuple[int, int], int] = defaultdict(int)
+    for move in sorted(moves, key=lambda move: (move.end, move.robot)):
+        door = door_of_cell.get(move.there)
+        if door is None or move.there == move.here:
+            continue
+        came[door, move.end] += 1
+        if came[door, move.end] > int(schedule.openings_at(np.array([door]), np.array([move.end]))[0]):
+            text = f"robot {move.robot} enters the door {run.scenario.area.place_of_cell(move.there)} while it is shut"
+            yield Conflict("capacity", move.end, (move.robot,), ((move.there % width, move.there // width),), text)
 
 
 def judge_arrivals(run: Run, moves: list[Move]) -> Iterator[Conflict]:

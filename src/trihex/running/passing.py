@@ -213,7 +213,9 @@ def make_passing_order(plan: Plan) -> PassingOrder:
     check_type("plan", plan, Plan)
     if (plan.actions == JUMP).any():
         raise PlanError("a plan in which robots jump has no order of passing")
-    scenario, capacity = plan.scenario, plan.scenario.destination_capacity
+    scenario, capacity = plan.scenario, plan.scenario.entry_limit
+    if scenario.has_flows:
+        raise PlanError("an order of passing tells who goes first, not when: doors must have no flow")
     first_move, begin, there, passed = _moves_of(plan)
     lasts = scenario.duration_of_direction[plan.actions[plan.actions != WAIT]].astype(np.int64)
     # Half ticks: from when to when a move passes its vertex, and its robot owns its target and then the cell it leaves.
@@ -222,7 +224,7 @@ def make_passing_order(plan: Plan) -> PassingOrder:
     is_entry = np.isin(there, scenario.area.layout.cell_to_site(scenario.destinations))
     vertex, entry = np.full(begin.size, -1, dtype=np.int64), np.full(begin.size, -1, dtype=np.int64)
     _chain(np.flatnonzero(passed >= 0), passed, 2 * begin, end, vertex)
-    if capacity is not None:
+    if capacity:
         _share(np.flatnonzero(is_entry), there, (middle, end), capacity, entry)
     leaves = _leaves_before(plan, first_move, (middle, end - follows * lasts), there, is_entry)
     _check_rings(leaves, middle, lasts)

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from trihex.areas import seconds_per_step
+from trihex.areas import plain_flow, seconds_per_step
 from trihex.bounds import LowerBound, make_lower_bound
 from trihex.errors import check_type
 from trihex.fields import make_n_scheme
@@ -77,7 +77,8 @@ class RunReport(Record):
             "costs": area.tessellation.costs,
             "corners": scenario.corners,
             "crossing": scenario.crossing,
-            "destination_capacity": scenario.destination_capacity,
+            "destination_capacity": plain_flow(scenario.destination_capacity),
+            **({"doors": scenario.flows_in_words(self.step_seconds)} if scenario.doors else {}),
             "clock": scenario.clock,
             "following": scenario.following,
             "waiting_cost": int(scenario.waiting_cost),

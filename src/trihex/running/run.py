@@ -135,7 +135,7 @@ class Run(Motion):
         """How many robots arrived in each zone of the area, by its name."""
         layout = self.scenario.area.layout
         *_, site = self._sites_by_step()
-        return count_by_zone(self.scenario.area.zones, layout.site_to_cell(site[self.arrived]))
+        return count_by_zone(self.scenario.exit_zones, layout.site_to_cell(site[self.arrived]))
 
     def cells_by_step(self) -> Iterator[NDArray[np.int64]]:
         """Yield the cell of each robot after step 0, 1, ..., `steps`; -1 where it is not in the area.

@@ -86,7 +86,8 @@ class Stepper:
         lines = self._lines_at(fleet.site[lined]) if self._looks_at_lines else self._no_lines
         rules = StepRules(tick=fleet.tick, captain=captain, **self._rules)
         walkers = Walkers(fleet.site, fleet.came_from, action, fleet.occupied, fleet.due, fleet.heading, fleet.enters)
-        held = Held(claims.duration, claims.left_until, claims.passed_until, claims.entered_until, self._led)
+        doors = claims.let_in, claims.let_in_at, claims.doors
+        held = Held(claims.duration, claims.left_until, claims.passed_until, claims.entered_until, *doors, self._led)
         act(order, rules, self._ways, self._forest, lines, walkers, held)
         return action
 

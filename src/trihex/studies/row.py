@@ -103,6 +103,8 @@ def row_of_report(report: Report) -> Row:
     known = {name: summary[name] for name in COLUMNS if name in summary and not name.startswith("seconds")}
     for name in ("area", "seed", "planner"):
         del known[name]
+    if isinstance(known["destination_capacity"], float):  # a flow, in a column of whole numbers
+        known["destination_capacity"] = None
     return {**known, **_waits(plan), **_lengths(plan)}
 
 
@@ -159,6 +161,8 @@ def hash_of_scenario(scenario: Scenario) -> str:
     area, tessellation = scenario.area, scenario.area.tessellation
     frame = area.frame and (area.frame.cell_size, area.frame.origin, area.frame.yaw, area.frame.robot_radius)
     rules = tuple(map(str, (scenario.waiting_cost, scenario.crossing, scenario.corners, scenario.destination_capacity)))
+    if scenario.doors:  # so did these
+        rules += tuple(f"{door.flow}: {door.cells.tolist()}" for door in scenario.doors)
     if (scenario.clock, scenario.following) != ("steps", "allow"):  # these came later
         rules += (scenario.clock, scenario.following)
     if scenario.has_start_times:

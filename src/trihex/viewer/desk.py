@@ -19,10 +19,20 @@ from numpy.typing import NDArray
 
 from trihex.areas import GENERATORS, Area, Scenario, random_robots
 from trihex.bounds import distance_bound, make_lower_bound, slot_bound
-from trihex.errors import FormatError, TooLargeError, TrihexError, check_choice, check_type
+from trihex.errors import FormatError, TooLargeError, TrihexError, check_choice, check_type, is_whole
 from trihex.fields import distance_generations, make_d_scheme
 from trihex.files import read_bytes
-from trihex.formats import FORMATS, Draft, draft_of, format_of, read_draft, read_plan, read_run, read_starts
+from trihex.formats import (
+    FORMATS,
+    Draft,
+    draft_of,
+    format_of,
+    read_draft,
+    read_plan,
+    read_run,
+    read_start_times,
+    read_starts,
+)
 from trihex.judging import Report, audit_plan, make_report
 from trihex.planners import PLANNERS, check_plannable, make_plan, uses_of
 from trihex.plans import Plan
@@ -159,7 +169,8 @@ class Desk:
             return self._shown(plan, seconds, call)
         if form.holds == "starts":
             draft = call.draft(request)
-            return _drafted(replace(draft, robots=read_starts(path, draft.area), seed=None))
+            robots, times = read_starts(path, draft.area), read_start_times(path)
+            return _drafted(replace(draft, robots=robots, start_times=times, seed=None))
         options = {name: getattr(request, name) for name in _PLACE}
         try:
             draft = read_draft(path, request.tessellation, progress=call.progress("reading"), **options)
@@ -182,7 +193,9 @@ class Desk:
         return _drafted(Draft(area))
 
     def _scatter(self, request: ask.Scatter, call: Call) -> Bundle:
-        draft = replace(call.draft(request), robots=None, random_count=request.count, seed=request.seed)
+        draft = replace(
+            call.draft(request), robots=None, start_times=None, random_count=request.count, seed=request.seed
+        )
         return _drafted(_drawn(draft, call))
 
     def _fields(self, request: ask.Fields, call: Call) -> Bundle:
@@ -306,8 +319,8 @@ class Desk:
     def _layer(self, request: ask.MakeLayer, call: Call) -> Bundle:
         check_choice("layer", request.layer, LAYERS, FormatError)
         plan = self.shelf.report(request.plan).plan
-        prepare_for(call, *LAYERS[request.layer].uses)
-        return make_layer(request.layer, plan)
+        prepare_for(call, *LAYERS[request.layer].uses, scenario=plan.scenario)
+        return make_layer(request.layer, plan, call.progress("pricing"))
 
     def _shown(self, plan: Plan, seconds: dict[str, float], call: Call) -> Bundle:
         """Return the plan with the bounds that are had at once; the page asks for a better one while it plays."""
@@ -334,6 +347,11 @@ def _drawn(draft: Draft, call: Call) -> Draft:
 
 
 def _drafted(draft: Draft) -> Bundle:
+    if draft.doors or not (draft.destination_capacity is None or is_whole(draft.destination_capacity)):
+        raise FormatError(
+            "the viewer plans without doors that have a flow, so it cannot open a place that has some: "
+            "plan with trihex plan --out plan.npz, and open that"
+        )
     header, arrays = document_of(draft)
     ground, more = ground_of(draft)
     return Bundle({"document": header, "planner": draft.planner, "ground": ground}, {**arrays, **more})

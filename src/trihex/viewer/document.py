@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from math import ceil, sqrt
 from typing import Annotated, Any
 
@@ -55,6 +56,8 @@ class DocumentHeader(_Strict):
     following: str | None = None
     destination_capacity: Annotated[int, Field(ge=1, le=2**30)] | None = None
     seed: Annotated[int, Field(ge=0, lt=2**53)] | None = None  # JavaScript has no larger whole numbers
+    # Cell and start time of robots that may not begin at once: pages hand it on, whatever becomes of other robots.
+    start_times: list[Annotated[list[_Whole], Field(min_length=2, max_length=2)]] | None = None
 
 
 def document_of(draft: Draft) -> Bundle:
@@ -94,15 +97,26 @@ def document_of(draft: Draft) -> Bundle:
         "corners": draft.corners or "allow",
         "clock": draft.clock or area.tessellation.clock,
         "following": draft.following or usual_following(area.tessellation, frame),
-        "destination_capacity": None if draft.destination_capacity is None else int(draft.destination_capacity),
+        "destination_capacity": _whole_capacity(draft),
         "seed": None if draft.seed is None else int(draft.seed),
     }
+    if draft.has_start_times:
+        header["start_times"] = _start_times(draft, robots)
     arrays: dict[str, NDArray[Any]] = {
         "barriers": np.packbits(area.barriers),
         "destinations": _cells(draft.destinations),
         "robots": _cells(draft.robots),
     }
     return Bundle(header, arrays)
+
+
+def _start_times(draft: Draft, robots: NDArray[Any]) -> list[list[int]]:
+    """Return cell and start time of each robot that may not begin at once; those that join a run may."""
+    area = draft.area if draft.clock is None else draft.area.with_clock(draft.clock)
+    times = draft.steps_of_starts(area, robots.size)[: robots.size]
+    late = np.flatnonzero(times)
+    pairs: list[list[int]] = np.stack([robots[late], times[late]], axis=1).astype(np.int64).tolist()
+    return pairs
 
 
 def ground_of(draft: Draft) -> Bundle | tuple[None, dict[str, NDArray[Any]]]:
@@ -164,7 +178,19 @@ def draft_of_document(header: Any, arrays: dict[str, NDArray[Any]]) -> Draft:
         clock=parsed.clock,
         following=parsed.following,
         destination_capacity=parsed.destination_capacity,
+        start_times=_times_of(arrays["robots"], parsed.start_times) if parsed.start_times else None,
     )
+
+
+def _times_of(robots: NDArray[np.int32], pairs: list[list[int]]) -> NDArray[np.int64]:
+    time_of_cell: dict[int, int] = dict(tuple(pair) for pair in pairs)  # type: ignore[misc]
+    return np.array([time_of_cell.get(cell, 0) for cell in robots.tolist()], dtype=np.int64)
+
+
+def _whole_capacity(draft: Draft) -> int | None:
+    """Return how many robots enter a destination at a time; of a flow, which the page does not know, at most."""
+    capacity = draft.destination_capacity
+    return None if capacity is None else ceil(Fraction(capacity))
 
 
 def _cells(cells: NDArray[np.int64] | None) -> NDArray[np.int32]:

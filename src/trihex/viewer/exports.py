@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+from trihex.areas import seconds_per_step
 from trihex.errors import FormatError, check_choice
 from trihex.fields import make_n_scheme
 from trihex.formats import (
@@ -90,7 +91,9 @@ def export(
     elif what == "field":
         write_field(make_n_scheme(draft.complete()).distance, path)
     elif what == "starts":
-        write_starts(draft.area, draft.complete().robots, path)
+        scenario, lasts = draft.complete(), 1.0 if draft.area.frame is None else seconds_per_step(draft.area)
+        times = scenario.start_times * lasts if scenario.has_start_times else None
+        write_starts(draft.area, scenario.robots, path, start_times=times)
     elif what == "picture":
         has_destination = draft.destinations is not None and draft.destinations.size > 0
         start = picture_of_area(draft.complete() if has_destination else draft.area)

@@ -125,7 +125,7 @@ def write_report_page(
     motion = report.run if isinstance(report, RunReport) else report.plan
     name = motion.scenario.area.name
     title = f"{motion.planner or 'plan'}{f' on {name}' if name else ''} - trihex"
-    html, _ = page_with(settings_of(host="alone", layers=layer_choices()), first, title, is_alone=True)
+    html, _ = page_with(settings_of(host="alone", layers=layer_choices(is_alone=True)), first, title, is_alone=True)
     with new_file(path) as part:
         part.write_text(html, encoding="utf-8")
 

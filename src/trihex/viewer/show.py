@@ -14,7 +14,7 @@ from trihex.formats import draft_of
 from trihex.judging import Conflict, Report
 from trihex.plans import make_playback
 from trihex.viewer.bundle import Bundle
-from trihex.viewer.document import document_of
+from trihex.viewer.document import document_of, ground_of
 
 MAX_ACTIONS = 2**29
 _MOST_CONFLICTS = 20
@@ -31,11 +31,13 @@ def show_plan(report: Report, n_scheme: NScheme, name: str = "") -> Bundle:
     plan, scenario = report.plan, report.plan.scenario
     if plan.actions.size > MAX_ACTIONS:
         raise TooLargeError(f"the viewer plays at most {MAX_ACTIONS} robot steps, not {plan.actions.size}")
-    document, arrays = document_of(draft_of(scenario))
+    draft = draft_of(scenario)
+    (document, arrays), (ground, beneath) = document_of(draft), ground_of(draft)
     playback = make_playback(plan, n_scheme)
     jump_at, jump_to = plan.jump_tables
     header: dict[str, Any] = {
         "document": document,
+        "ground": ground,
         "plan": name,
         "summary": report.as_dict(),
         "conflicts": told_conflicts(report.audit.conflicts),
@@ -47,6 +49,7 @@ def show_plan(report: Report, n_scheme: NScheme, name: str = "") -> Bundle:
     counts = {name: getattr(playback, name).astype(np.int32) for name in ("moving", "waiting", "arrived")}
     arrays = {
         **arrays,
+        **beneath,
         **{f"{name}_by_step": curve for name, curve in {**curves, **counts}.items()},
         "actions": plan.actions,
         "first_action": plan.first_action.astype(np.int32),

@@ -14,7 +14,7 @@ from trihex.formats import draft_of
 from trihex.kernels.codes import LATE, UNDERWAY, WAIT
 from trihex.running import GOING, LEFT, Run, RunReport
 from trihex.viewer.bundle import Bundle
-from trihex.viewer.document import document_of
+from trihex.viewer.document import document_of, ground_of
 from trihex.viewer.show import MAX_ACTIONS, told_conflicts, told_layout
 
 _NONE = np.empty(0, dtype=np.int32)
@@ -31,9 +31,11 @@ def show_run(report: RunReport) -> Bundle:
     run, scenario = report.run, report.run.scenario
     if run.actions.size > MAX_ACTIONS:
         raise TooLargeError(f"the viewer plays at most {MAX_ACTIONS} robot steps, not {run.actions.size}")
-    document, arrays = document_of(replace(draft_of(scenario), robots=run.robots))
+    draft = replace(draft_of(scenario), robots=run.robots)
+    (document, arrays), (ground, beneath) = document_of(draft), ground_of(draft)
     header: dict[str, Any] = {
         "document": document,
+        "ground": ground,
         "plan": "",
         "summary": {**report.as_dict(), "unreachable": int(np.sum(run.state_of_robot == GOING))},
         "conflicts": told_conflicts(report.audit.conflicts),
@@ -45,6 +47,7 @@ def show_run(report: RunReport) -> Bundle:
     begins = _begins(run)
     first = np.concatenate([[0], np.cumsum(begins.sum(axis=0))])
     arrays |= {
+        **beneath,
         **_curves(run),
         "actions": run.actions.T[begins.T],  # those of one robot after those of the other
         "first_action": first.astype(np.int32),

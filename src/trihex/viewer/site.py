@@ -20,7 +20,7 @@ from trihex.viewer.bundle import Bundle, decode, encode
 from trihex.viewer.choices import choices
 from trihex.viewer.desk import MAX_AUTOMATON_CELLS, Desk
 from trihex.viewer.document import document_of
-from trihex.viewer.layers import LAYERS
+from trihex.viewer.layers import layer_choices
 from trihex.viewer.page import page_with, settings_of
 from trihex.viewer.script import module
 
@@ -118,11 +118,11 @@ def _shapes_of(area: Area) -> tuple[str, ...]:
 
 def _answers(desk: Desk, scenario: Scenario, planners: tuple[str, ...], progress: Progress) -> dict[str, bytes]:
     """Return all answers by the names of their files, as the page spells them."""
-    shapes, found = _shapes_of(scenario.area), {}
+    shapes, layers, found = _shapes_of(scenario.area), layer_choices(is_alone=True), {}
 
     def ask(name: str, wish: dict[str, Any]) -> bytes:
         found[f"answers/{name}.bin"] = answer = _answer(desk, scenario, wish)
-        progress(len(found), 2 + (2 + len(LAYERS)) * len(shapes) * len(planners))
+        progress(len(found), 2 + (2 + len(layers)) * len(shapes) * len(planners))
         return answer
 
     ask("fields", {"op": "fields"})
@@ -134,7 +134,7 @@ def _answers(desk: Desk, scenario: Scenario, planners: tuple[str, ...], progress
         for plan in plans:  # when all are there: one may have proven the optimum
             name = decode(plan[4:]).header["plan"]
             ask(f"bound-{name}", {"op": "bound", "plan": name})
-            for layer in LAYERS:
+            for layer in layers:
                 ask(f"layer-{layer}-{name}", {"op": "layer", "plan": name, "layer": layer})
     return found
 

@@ -7,32 +7,33 @@ import os
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
-from trihex.areas import Zone, import_shapely
+from trihex.areas import Zone, check_flow, import_shapely
 from trihex.areas.coverage import Progress
-from trihex.errors import AreaError, FormatError, check_choice
+from trihex.errors import AreaError, FormatError, ScenarioError, check_choice
 from trihex.formats.areas.options import AreaOptions
 from trihex.formats.areas.polygons import Drawn, Place, checked_parts, draft_of_place
 from trihex.formats.draft import Draft
 from trihex.formats.text import Text
 
-KINDS = ("free", "obstacle", "destination", "robot")
+KINDS = ("free", "obstacle", "destination", "robot", "door")
 _TYPES = ("Point", "MultiPoint", "LineString", "MultiLineString", "Polygon", "MultiPolygon", "GeometryCollection")
 
 
 class _Leaf(NamedTuple):
-    """A geometry that is no collection, as read, where in the file it stands and its name if it has one."""
+    """A geometry that is no collection, as read, where in the file it stands, and what it is called and lets in."""
 
     geometry: dict[str, Any]
     where: str
     name: str
+    capacity: Any
 
 
 def parse_geojson(text: Text, path: str | os.PathLike[str], options: AreaOptions, progress: Progress | None) -> Draft:
     """Return the area that covers what the file draws, and its destinations and robots if it has some.
 
     Coordinates are metres, x to the east and y to the north. The property ``kind`` of a feature tells what it is: free
-    (the default of polygons), obstacle, destination or robot (points). All that is not free is occupied. The property
-    ``name`` of a destination becomes that of a zone.
+    (the default of polygons), obstacle, destination, robot (points) or door. All that is not free is occupied. The
+    property ``name`` of a destination or door becomes that of a zone, and ``capacity`` is how many robots it lets in.
 
     Raises
     ------
@@ -49,19 +50,19 @@ def parse_geojson(text: Text, path: str | os.PathLike[str], options: AreaOptions
     except ValueError as error:
         raise FormatError(f"{path}: is no JSON: {error}") from None
     leaves: dict[str, list[_Leaf]] = {kind: [] for kind in KINDS}
-    for where, geometry, kind, name in _features(document, str(path)):
-        own = [_Leaf(leaf, where, name) for leaf in _geometries(geometry, where)]
+    for where, geometry, kind, name, capacity in _features(document, str(path)):
+        own = [_Leaf(leaf, where, name, capacity) for leaf in _geometries(geometry, where)]
         for leaf in own:
             _check_kind(leaf, kind)
-        if kind in ("destination", "robot") and not own:
+        if kind in ("destination", "robot", "door") and not own:
             raise FormatError(f"{where}: a {kind} must have coordinates; it has none")
         leaves[kind or "free"] += own
     parts = {kind: _drawn(own, kind) for kind, own in leaves.items()}
     return draft_of_place(Place(path, **parts), options, progress)
 
 
-def _features(document: Any, path: str) -> Iterator[tuple[str, Any, str | None, str]]:
-    """Yield where it stands, geometry, kind and name of each feature; only destinations have names."""
+def _features(document: Any, path: str) -> Iterator[tuple[str, Any, str | None, str, Any]]:
+    """Yield where it stands, geometry, kind, name and capacity of each feature; the last two of exits and doors."""
     if not isinstance(document, dict):
         raise FormatError(f"{path}: GeoJSON must be an object, not {type(document).__name__}")
     features = document.get("features") if document.get("type") == "FeatureCollection" else [document]
@@ -72,7 +73,7 @@ def _features(document: Any, path: str) -> Iterator[tuple[str, Any, str | None, 
         if not isinstance(feature, dict):
             raise FormatError(f"{where}: must be an object, not {feature!r:.40}")
         if feature.get("type") != "Feature":
-            yield where, feature, None, ""
+            yield where, feature, None, "", None
             continue
         properties = feature.get("properties")
         properties = properties if isinstance(properties, dict) else {}
@@ -80,8 +81,24 @@ def _features(document: Any, path: str) -> Iterator[tuple[str, Any, str | None, 
         if kind is not None:
             check_choice(f"{where}: kind", kind, KINDS, FormatError)
         nothing = {"type": "GeometryCollection", "geometries": []}
-        name = _name_of(properties, where) if kind == "destination" else ""
-        yield where, nothing if feature.get("geometry") is None else feature["geometry"], kind, name
+        geometry = nothing if feature.get("geometry") is None else feature["geometry"]
+        if kind in ("destination", "door"):
+            yield where, geometry, kind, _name_of(properties, where), _capacity_of(properties, kind, where)
+        else:
+            yield where, geometry, kind, "", None
+
+
+def _capacity_of(properties: dict[str, Any], kind: str, where: str) -> Any:
+    """Return the capacity that a feature has, None if it has none; a door must have one."""
+    capacity = properties.get("capacity")
+    if capacity is None and kind == "door":
+        raise FormatError(f"{where}: a door must have the property capacity, what it lets in, such as '1.6/s'")
+    if capacity is not None:
+        try:
+            check_flow("capacity", capacity)
+        except ScenarioError as error:
+            raise FormatError(f"{where}: {error}") from None
+    return capacity
 
 
 def _name_of(properties: dict[str, Any], where: str) -> str:
@@ -129,9 +146,12 @@ def _drawn(leaves: list[_Leaf], kind: str) -> list[Drawn]:
         shapes = shapely.from_geojson([_text(leaf) for leaf in leaves])
     except (shapely.errors.ShapelyError, ValueError, RecursionError):  # of which one, and why
         shapes = [_shape(leaf) for leaf in leaves]
-    whole = [Drawn(leaf.where, shape, leaf.name) for leaf, shape in zip(leaves, shapes, strict=True)]
+    whole = [
+        Drawn(leaf.where, shape, leaf.name, (leaf.where, leaf.capacity))
+        for leaf, shape in zip(leaves, shapes, strict=True)
+    ]
     parts = checked_parts(whole)
-    if kind in ("destination", "robot"):
+    if kind in ("destination", "robot", "door"):
         for one in (*whole, *parts):
             if one.shape.is_empty:
                 raise FormatError(f"{one.where}: a {kind} must have coordinates; it has none")

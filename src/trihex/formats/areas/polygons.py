@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from math import ceil
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -20,15 +21,20 @@ from trihex.record import Record
 
 # The Earth is 4e7 metres around.
 MOST_METRES = 1e9
+_SAMPLES_A_CELL, _MOST_SAMPLES = 64, 100_000
 _FIRST_COLLECTION = 4  # of the types of shapely: those before are points, lines and polygons
 
 
 class Drawn(NamedTuple):
-    """A geometry that a file draws, where in the file it stands, for messages, and its name if it has one."""
+    """A geometry that a file draws, where in the file it stands, for messages, and its name if it has one.
+
+    The last are the whole that it is a part of, and how many robots that lets in, None if nothing is said.
+    """
 
     where: str
     shape: Any
     name: str = ""
+    lets_in: tuple[str, Any] = ("", None)
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,6 +53,8 @@ class Place(Record):
         A point stands for its cell, anything else for the free cells it touches, or those that lead through it.
     robot : list of Drawn
         Points.
+    door : list of Drawn
+        A line stands for the cells that it leads through, anything else as for destinations.
     """
 
     path: str | os.PathLike[str]
@@ -54,6 +62,7 @@ class Place(Record):
     obstacle: list[Drawn]
     destination: list[Drawn]
     robot: list[Drawn]
+    door: list[Drawn] = field(default_factory=list)
 
 
 def draft_of_place(place: Place, options: AreaOptions, progress: Progress | None) -> Draft:
@@ -79,14 +88,49 @@ def draft_of_place(place: Place, options: AreaOptions, progress: Progress | None
         else cells_of_exit(area, drawn.where, drawn.shape)
         for drawn in place.destination
     ]
-    zones = [
-        Zone(drawn.name, cells) for drawn, cells in zip(place.destination, destinations, strict=True) if drawn.name
-    ]
+    doors = [_cells_of_door(area, drawn) for drawn in place.door]
+    named = list(zip((*place.destination, *place.door), (*destinations, *doors), strict=True))
+    zones = [Zone(drawn.name, cells) for drawn, cells in named if drawn.name]
     return Draft(
         replace(area, zones=tuple(zones)),
         np.concatenate(destinations) if destinations else None,
         _cells_of_points(area, place.robot, "robot") if place.robot else None,
+        doors=_doors_of(named),
     )
+
+
+def _doors_of(named: list[tuple[Drawn, NDArray[np.int64]]]) -> tuple[tuple[Any, Any], ...]:
+    """Return the flow of each zone that has one, and that of others by their cells; parts of one whole are one."""
+    doors: dict[str, tuple[Any, Any]] = {}
+    for drawn, cells in named:
+        whole, flow = drawn.lets_in
+        if flow is None:
+            continue
+        earlier = doors.get(drawn.name or whole, ([], flow))[0]
+        doors[drawn.name or whole] = drawn.name or [*earlier, *cells.tolist()], flow
+    return tuple(doors.values())
+
+
+def _cells_of_door(area: Area, door: Drawn) -> NDArray[np.int64]:
+    """Return the free cells of a door: those in which the points of a line lie, a row that no move leads across.
+
+    (All that it touches may be two rows, each of which would let in as few.)
+    """
+    import shapely
+
+    if door.shape.geom_type == "Point":
+        return _cells_of_points(area, [door], "door")
+    if door.shape.geom_type != "LineString":
+        return cells_of_exit(area, door.where, door.shape)
+    count = min(_MOST_SAMPLES, ceil(_SAMPLES_A_CELL * door.shape.length / area.metres.cell_size) + 1)
+    points = shapely.line_interpolate_point(door.shape, np.linspace(0, door.shape.length, count))
+    x, y = area.metres.cell_at(area.tessellation, *shapely.get_coordinates(points).T)
+    is_inside = (x >= 0) & (y >= 0) & (x < area.width) & (y < area.height)
+    cells = np.unique(area.xy_to_cell(x[is_inside], y[is_inside]))
+    cells = cells[~area.is_barrier(cells)]
+    if cells.size == 0:
+        raise NoRoomError(f"{door.where}: a door must lead through free cells; it meets none")
+    return np.asarray(cells)
 
 
 def checked_parts(drawn: list[Drawn]) -> list[Drawn]:
@@ -121,7 +165,9 @@ def checked_parts(drawn: list[Drawn]) -> list[Drawn]:
     ]
     for i in np.flatnonzero(~shapely.is_valid(parts)):
         raise FormatError(f"{place[i]}: a {parts[i].geom_type} is invalid: {shapely.is_valid_reason(parts[i])}")
-    return [Drawn(where, part, drawn[i].name) for where, part, i in zip(place, parts, owner, strict=True)]
+    return [
+        Drawn(where, part, drawn[i].name, drawn[i].lets_in) for where, part, i in zip(place, parts, owner, strict=True)
+    ]
 
 
 def _cells_of_points(area: Area, points: list[Drawn], what: str) -> NDArray[np.int64]:
@@ -131,7 +177,7 @@ def _cells_of_points(area: Area, points: list[Drawn], what: str) -> NDArray[np.i
     try:
         return area.metres_to_cell(*shapely.get_coordinates([drawn.shape for drawn in points]).T)
     except AreaError:
-        for where, shape, _ in points:
+        for where, shape, *_ in points:
             try:
                 area.metres_to_cell(shape.x, shape.y)
             except AreaError as error:

@@ -2,19 +2,27 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Area, Frame, Scenario, Tessellation, Zone
+from trihex.areas import Area, Door, Frame, Scenario, Tessellation, Zone
 from trihex.errors import FormatError
 from trihex.formats.archive import Entries
 
 # Entries that came later, and what holds where a file does not have them: it has none that is usual.
 _LATER_RULES = {"clock": "steps", "following": "allow"}
 _NO_ZONES = {"zone_names": np.empty(0, dtype=np.uint8), "zone_cells": np.empty((0, 2), dtype=np.int64)}
-LATER_ENTRIES: dict[str, Any] = {**_LATER_RULES, **_NO_ZONES, "start_times": np.empty(0, dtype=np.int64)}
+_NO_DOORS = {
+    "door_names": np.empty(0, dtype=np.uint8),
+    "door_cells": np.empty((0, 2), dtype=np.int64),
+    "door_flows": np.empty((0, 2), dtype=np.int64),
+    "destination_flow": np.empty(0, dtype=np.int64),
+}
+_NO_TIMES = {"start_times": np.empty(0, dtype=np.int64)}
+LATER_ENTRIES: dict[str, Any] = {**_LATER_RULES, **_NO_ZONES, **_NO_DOORS, **_NO_TIMES}
 SCENARIO_ENTRIES: Entries = {
     "tessellation": ("U", 0),
     "neighbourhood": ("U", 0),
@@ -30,7 +38,11 @@ SCENARIO_ENTRIES: Entries = {
     "waiting_cost": ("i", 0),
     "crossing": ("U", 0),
     "corners": ("U", 0),
-    "destination_capacity": ("i", 0),  # 0: any number
+    "destination_capacity": ("i", 0),  # 0: any number; of a flow the next whole number
+    "destination_flow": ("i", 1),  # numerator and denominator, where the capacity is no whole number
+    "door_names": ("u", 1),  # UTF-8, a line each, empty for one without a name
+    "door_cells": ("i", 2),  # door, cell
+    "door_flows": ("i", 2),  # numerator, denominator
     "seed": ("i", 0),  # -1: none
     **dict.fromkeys(_LATER_RULES, ("U", 0)),
 }
@@ -54,6 +66,7 @@ def scenario_arrays(scenario: Scenario) -> dict[str, Any]:
         "crossing": scenario.crossing,
         "corners": scenario.corners,
         "destination_capacity": scenario.entry_limit,
+        **_flow_arrays(scenario),
         "seed": -1 if scenario.seed is None else scenario.seed,
         **{name: rule for name, usual in _LATER_RULES.items() if (rule := getattr(scenario, name)) != usual},
     }
@@ -71,11 +84,45 @@ def scenario_from(arrays: dict[str, Any], path: object, kind: type[Scenario] = S
         int(arrays["waiting_cost"]),
         text["crossing"],
         text["corners"],
-        None if capacity == 0 else capacity,
+        _destination_flow(arrays, path) or capacity or None,
         None if seed == -1 else seed,
+        doors=_doors(arrays, path),
         **{name: text[name] for name in _LATER_RULES},
         start_times=arrays["start_times"],
     )
+
+
+def _flow_arrays(scenario: Scenario) -> dict[str, Any]:
+    """Return the doors, and a capacity that is a fraction; nothing where there are none."""
+    arrays: dict[str, Any] = {}
+    if isinstance(scenario.destination_capacity, Fraction):
+        arrays["destination_flow"] = np.array(scenario.destination_capacity.as_integer_ratio())
+    if doors := scenario.doors:
+        pairs = [(number, cell) for number, door in enumerate(doors) for cell in door.cells.tolist()]
+        arrays["door_names"] = np.frombuffer("".join(f"{door.name}\n" for door in doors).encode(), dtype=np.uint8)
+        arrays["door_cells"] = np.array(pairs, dtype=np.int64)
+        arrays["door_flows"] = np.array([door.flow.as_integer_ratio() for door in doors])
+    return arrays
+
+
+def _destination_flow(arrays: dict[str, Any], path: object) -> Fraction | None:
+    numbers = arrays["destination_flow"]
+    if numbers.size not in (0, 2) or (numbers <= 0).any():
+        raise FormatError(f"{path}: entry 'destination_flow' must hold 2 whole numbers above 0, or none")
+    return Fraction(*numbers.tolist()) if numbers.size else None
+
+
+def _doors(arrays: dict[str, Any], path: object) -> tuple[Door, ...]:
+    names, flows = arrays["door_names"].tobytes().decode(errors="replace").split("\n")[:-1], arrays["door_flows"]
+    cells = arrays["door_cells"]
+    is_sound = cells.shape[1] == 2 and flows.shape == (len(names), 2) and (flows > 0).all()
+    if not is_sound or (cells.size and not 0 <= cells[:, 0].min() <= cells[:, 0].max() < len(names)):
+        raise FormatError(
+            f"{path}: entries 'door_names', 'door_cells' and 'door_flows' must hold a name, cells and a fraction "
+            "above 0 for each door"
+        )
+    rows = zip(names, flows.tolist(), strict=True)
+    return tuple(Door(cells[cells[:, 0] == i, 1], Fraction(*flow), name) for i, (name, flow) in enumerate(rows))
 
 
 def _zone_arrays(zones: tuple[Zone, ...]) -> dict[str, Any]:

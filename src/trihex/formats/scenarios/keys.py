@@ -21,7 +21,7 @@ from trihex.areas import (
 )
 from trihex.errors import ScenarioError, is_whole
 from trihex.formats.areas.options import UNKNOWNS
-from trihex.formats.schema import LARGEST, Cells, Count, Number, Points, Table, Whole, choice
+from trihex.formats.schema import LARGEST, Cells, Flow, Number, Points, Table, Whole, choice
 
 
 class FrameTable(Table):
@@ -67,9 +67,18 @@ class RulesTable(Table):
     waiting_cost: Whole | None = None
     crossing: Annotated[str, choice("it", CROSSINGS)] | None = None
     corners: Annotated[str, choice("it", CORNERS)] | None = None
-    destination_capacity: Count | None = None
+    destination_capacity: Flow | None = None
     clock: Annotated[str, choice("it", CLOCKS)] | None = None
     following: Annotated[str, choice("it", FOLLOWINGS)] | None = None
+
+
+class DoorTable(Table):
+    """[[doors]]: cells that only so many robots enter in a step, those of a zone or others."""
+
+    one_of = ("zone", "cells", "!")
+    zone: str | None = None
+    cells: Cells | None = None
+    capacity: Flow
 
 
 def _start_times(value: object) -> object:
@@ -140,6 +149,7 @@ class ScenarioTable(Table):
     destinations: Cells | None = None
     destinations_in_metres: Points | None = None
     rules: RulesTable = RulesTable()
+    doors: list[DoorTable] = Field(default_factory=list)
     robots: RobotsTable = RobotsTable()
     planner: PlannerTable = PlannerTable()
     outputs: OutputsTable = OutputsTable()

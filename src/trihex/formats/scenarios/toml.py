@@ -6,6 +6,7 @@ import json
 import os
 from collections.abc import Callable
 from dataclasses import fields, replace
+from fractions import Fraction
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -91,6 +92,7 @@ def _draft_of(
     if (file := robots.file) is not None:
         starts = attempt("robots.file", lambda: read_starts(path.parent / file, area))
         own_times = attempt("robots.file", lambda: read_start_times(path.parent / file)) if starts is not None else None
+    doors = attempt("doors", lambda: [(door.zone or door.cells, door.capacity) for door in table.doors])
     has_robots = starts is not None or robots.random is not None
     return Draft(
         area,
@@ -103,6 +105,7 @@ def _draft_of(
         planner_options=table.planner.options,
         outputs=_outputs(table, path),
         start_times=own_times if robots.start_times is None else robots.start_times,
+        doors=(*draft.doors, *(doors or ())),
     )
 
 
@@ -159,9 +162,10 @@ def write_scenario_toml(
         f"waiting_cost = {scenario.waiting_cost}" if scenario.clock == "steps" else "",  # else it is 1 a tick
         f"crossing = {_text(scenario.crossing)}",
         f"corners = {_text(scenario.corners)}",
-        f"destination_capacity = {scenario.destination_capacity}" if scenario.destination_capacity else "",
+        f"destination_capacity = {_flow(scenario.destination_capacity)}" if scenario.destination_capacity else "",
         f"clock = {_text(scenario.clock)}" if scenario.clock != "steps" else "",
         f"following = {_text(scenario.following)}" if scenario.following != "allow" else "",
+        *_door_lines(scenario),
         "",
         "[robots]",
         f"cells = {_cells(area, scenario.robots)}",
@@ -236,6 +240,21 @@ def _zone_lines(area: Area) -> list[str]:
     if not area.zones:
         return []
     return ["", "[area.zones]", *(f"{_text(zone.name)} = {_cells(area, zone.cells)}" for zone in area.zones)]
+
+
+def _door_lines(scenario: Scenario) -> list[str]:
+    lines, zones = [], {zone.name: zone.cells for zone in scenario.area.zones}
+    for door in scenario.doors:
+        is_zone = door.name in zones and np.array_equal(door.cells, zones[door.name])
+        where = f"zone = {_text(door.name)}" if is_zone else f"cells = {_cells(scenario.area, door.cells)}"
+        lines += ["", "[[doors]]", where, f"capacity = {_flow(door.flow)}"]
+    return lines
+
+
+def _flow(flow: int | Fraction) -> str:
+    """Return a flow in robots a step: a whole number, or a fraction as text."""
+    numerator, denominator = flow.as_integer_ratio()
+    return str(numerator) if denominator == 1 else _text(f"{numerator}/{denominator}")
 
 
 def _cells(area: Area, cells: NDArray[np.int64]) -> str:

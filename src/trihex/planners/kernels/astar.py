@@ -1,4 +1,4 @@
-"""A robot's cheapest way in space and time past what is reserved, by A* with the distance as estimate.
+"""A robot's cheapest way in space and time past what is reserved, by A*.
 
 A search keeps its nodes (step, site) in a list, found again by hashing, and the open ones in a heap.
 """
@@ -10,6 +10,7 @@ from numba import types
 
 from trihex.kernels.codes import WAIT
 from trihex.kernels.signatures import HELPER, IN_BOOL, OUT_I32, OUT_I64, OUT_U8, declared, kernel
+from trihex.planners.kernels.estimates import ESTIMATES, MOST_MORE, least_left
 from trihex.planners.kernels.heap import HEAP, drop_first, push
 from trihex.planners.kernels.reservations import RESERVED, TERRAIN, find_first_entry, is_free, is_open
 
@@ -62,12 +63,6 @@ def _add(site, step, place, nodes, state):
 
 
 @HELPER
-def _left(site, step, terrain, state):
-    """Return what it costs at least to get from a site, in a step, to a destination."""
-    return max(np.int64(terrain.distance[site]), (state[EARLIEST] - step) * terrain.least_cost)
-
-
-@HELPER
 def _begin(start, step, terrain, reserved, nodes, heap, state):
     """Begin a search at a site after a step; the nodes of the last one are forgotten."""
     for i in range(state[NODES]):
@@ -83,7 +78,7 @@ def _begin(start, step, terrain, reserved, nodes, heap, state):
 
 
 @HELPER
-def _reach(parent, action, target, cost, terrain, nodes, heap, state):
+def _reach(parent, action, target, cost, terrain, estimates, nodes, heap, state):
     """Open the node to which an action leads, unless it has been reached at no more than this cost."""
     step = np.int64(nodes.step[parent]) + (1 if action == WAIT else np.int64(terrain.duration[action]))
     place = _find_place(target, step, nodes)
@@ -96,12 +91,13 @@ def _reach(parent, action, target, cost, terrain, nodes, heap, state):
     nodes.action[node] = action
     nodes.cost[node] = cost
     # Nodes of equal promise are taken nearest first, so that a robot whom nobody hinders walks straight on.
-    push(heap, state[OPEN], cost + _left(target, step, terrain, state), terrain.distance[target], node)
+    left = least_left(target, step, state[EARLIEST], terrain, estimates)
+    push(heap, state[OPEN], cost + left, terrain.distance[target], node)
     state[OPEN] += 1
 
 
 @HELPER
-def _leave(node, terrain, reserved, is_shut, nodes, heap, state):
+def _leave(node, terrain, reserved, is_shut, estimates, nodes, heap, state):
     """Open all nodes to which a robot may get from a node: by each direction, and by waiting for a step."""
     site, step, cost = np.int64(nodes.site[node]), np.int64(nodes.step[node]), nodes.cost[node]
     for k in range(len(terrain.cost)):
@@ -109,13 +105,16 @@ def _leave(node, terrain, reserved, is_shut, nodes, heap, state):
         if not terrain.moves[site] >> k & 1 or (len(is_shut) > 0 and is_shut[target]):
             continue
         if is_open(site, k, step, terrain, reserved):
-            _reach(node, k, target, cost + terrain.cost[k], terrain, nodes, heap, state)
+            _reach(node, k, target, cost + terrain.cost[k], terrain, estimates, nodes, heap, state)
     if is_free(site, step, terrain, reserved):
-        _reach(node, np.int64(WAIT), site, cost + terrain.waiting_cost, terrain, nodes, heap, state)
+        _reach(node, np.int64(WAIT), site, cost + terrain.waiting_cost, terrain, estimates, nodes, heap, state)
 
 
-@kernel(types.int64(types.int64, types.int64, TERRAIN, RESERVED, IN_BOOL, SPACE_TIME, HEAP, OUT_I64, types.int64))
-def search(start, step, terrain, reserved, is_shut, nodes, heap, state, budget):
+_SPACE = (TERRAIN, RESERVED, IN_BOOL, ESTIMATES, SPACE_TIME, HEAP, OUT_I64)
+
+
+@kernel(types.int64(types.int64, types.int64, *_SPACE, types.int64))
+def search(start, step, terrain, reserved, is_shut, estimates, nodes, heap, state, budget):
     """Search from a site, or go on if the last search was interrupted; tell whether a way was found, or why not yet.
 
     The way begins after `step`. At most `budget` nodes are looked at. ``is_shut[site]`` bars a site in all steps
@@ -135,14 +134,29 @@ def search(start, step, terrain, reserved, is_shut, nodes, heap, state, budget):
         drop_first(heap, state[OPEN])
         state[OPEN] -= 1
         site = np.int64(nodes.site[node])
-        if promised > nodes.cost[node] + _left(site, np.int64(nodes.step[node]), terrain, state):
+        left = least_left(site, np.int64(nodes.step[node]), state[EARLIEST], terrain, estimates)
+        if promised > nodes.cost[node] + left:
             continue  # it was reached at less cost since
         if terrain.distance[site] == 0:
             state[GOAL] = node
             state[OPEN] = 0
             return FOUND
-        _leave(node, terrain, reserved, is_shut, nodes, heap, state)
+        _leave(node, terrain, reserved, is_shut, estimates, nodes, heap, state)
     return NOTHING
+
+
+@kernel(types.void(TERRAIN, SPACE_TIME, OUT_I64, ESTIMATES))
+def learn(terrain, nodes, state, estimates):
+    """Learn from a search that has found its way: from a node the rest costs no less than what was left of the whole.
+
+    That stays true while ever more is reserved ("adaptive A*": Koenig and Likhachev, 2005).
+    """
+    size, total = len(terrain.distance), nodes.cost[state[GOAL]]
+    for node in range(state[NODES]):
+        site, step = np.int64(nodes.site[node]), np.int64(nodes.step[node])
+        more = min(total - nodes.cost[node] - terrain.distance[site], MOST_MORE)
+        if step < estimates.rows and more > estimates.learned[step * size + site]:
+            estimates.learned[step * size + site] = more
 
 
 @kernel(types.int64(SPACE_TIME, OUT_I64, OUT_U8))

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import types
 
-from trihex.kernels.signatures import APART, HELPER, IN_I32, OUT_I64, declared, kernel
+from trihex.kernels.signatures import APART, HELPER, IN_I32, IN_I64, OUT_I64, declared, kernel
 from trihex.planners.kernels.key_heap import drop_least, push_key
 from trihex.planners.kernels.residual import (
     AFTER,
@@ -31,9 +31,10 @@ from trihex.planners.kernels.residual import (
     value_of,
 )
 
-# Entries of the state: robots tried, lanes found, nodes visited.
-TRIED, FOUND, VISITED = range(3)
-STATE_SIZE = 3
+# Entries of the state: robots tried, lanes found, nodes visited; the catchment under way, and how many robots have got
+# no lane there since one did.
+TRIED, FOUND, VISITED, CATCHMENT, FAILED = range(5)
+STATE_SIZE = 5
 # A key of the heap: the reduced cost, and the node in the lower 32 bits.
 _NODE = (1 << 32) - 1
 _ONE = np.int64(1)
@@ -42,9 +43,13 @@ _ONE = np.int64(1)
 class LaneDemand(NamedTuple):
     """Who is to get a lane."""
 
-    starts: IN_I32  # the sites of the robots, in turn
-    due: OUT_I64  # what a lane of each may cost
+    starts: IN_I32  # the sites of the robots, catchment by catchment, in turn
+    first: IN_I64  # catchment c has the robots from first[c] on
+    found: OUT_I64  # how many lanes each catchment has
+    due: OUT_I64  # what a lane of each robot may cost
     price: types.int64  # what a step of waiting costs; -1: a lane may cost anything
+    most_visits: types.int64  # how many nodes may be visited; each catchment has its part by its robots
+    patience: types.int64  # after so many robots in turn without a lane no others of the catchment are tried
     most_lanes: types.int64  # how many lanes there can be in all
     capacity: types.int64  # how many may end in one destination, 0 for any number
 
@@ -107,10 +112,13 @@ def _search(root, start, most, search, demand, streets, network, heap):
             target, paid = arc_of(node, i, streets)
             if target == NOWHERE or target == after:
                 continue
-            if target < size and streets.distance[target] == 0:
+            if target < size and streets.catchment[target] != streets.catchment[start]:
+                continue
+            if target < size and network.ends[target] >= 0:
                 is_full = demand.capacity > 0 and network.ends[target] >= demand.capacity
-                if at + paid - value < best and not is_full:
-                    last, goal, best = node, target, at + paid - value
+                reduced = at + paid + streets.distance[target] - value
+                if reduced < best and not is_full:
+                    last, goal, best = node, target, reduced
                 continue
             there, extra = node_entered(target, i < 0, network)
             if there == NOWHERE or value_of(there, streets, network) >= NOBODY:
@@ -147,14 +155,26 @@ def _raise_values(path, network):
 
 
 @HELPER
-def _expect(lanes, demand, distance):
-    """Fill when each robot, the farthest first, would be there if all took turns in so many lanes without detours."""
+def _expect(catchment, demand, distance):
+    """Fill when each robot of a catchment, the farthest first, would be there if all took turns in its lanes.
+
+    That is without any detours.
+    """
     if demand.price < 0:
         return
-    for i in range(len(demand.starts) - 1, -1, -1):
+    lanes, end = demand.found[catchment], demand.first[catchment + 1]
+    for i in range(end - 1, demand.first[catchment] - 1, -1):
         demand.due[i] = distance[demand.starts[i]]
-        if i + lanes < len(demand.starts):
+        if i + lanes < end:
             demand.due[i] = max(demand.due[i], demand.due[i + lanes] + demand.price)
+
+
+@HELPER
+def _follow(robot, state, demand):
+    """Go on to the catchment of a robot."""
+    while robot >= demand.first[state[CATCHMENT] + 1]:
+        state[CATCHMENT] += 1
+        state[FAILED] = 0
 
 
 @kernel(types.boolean(DEMAND, STREETS, NETWORK, OUT_I64, OUT_I64, types.int64))
@@ -166,7 +186,13 @@ def link(demand, streets, network, heap, state, budget):
     done = state[VISITED] + budget
     while state[TRIED] < len(demand.starts) and state[FOUND] < demand.most_lanes and state[VISITED] < done:
         robot = state[TRIED]
+        _follow(robot, state, demand)
+        end = demand.first[state[CATCHMENT] + 1]
+        if state[FAILED] >= demand.patience or state[VISITED] * len(demand.starts) >= demand.most_visits * end:
+            state[TRIED] = end
+            continue
         state[TRIED] += 1
+        state[FAILED] += 1
         start = np.int64(demand.starts[robot])
         before = np.int64(network.node[start, BEFORE])
         if before == BEGIN:
@@ -178,6 +204,7 @@ def link(demand, streets, network, heap, state, budget):
         path = _search(root, start, most, state[TRIED], demand, streets, network, heap)
         if path.seen < 0:
             state[TRIED] -= 1
+            state[FAILED] -= 1
             return True
         state[VISITED] += path.seen
         _raise_values(path, network)
@@ -185,5 +212,7 @@ def link(demand, streets, network, heap, state, budget):
             change_lanes(path, streets, network)
             network.ends[path.goal] += 1
             state[FOUND] += 1
-            _expect(state[FOUND], demand, streets.distance)
+            state[FAILED] = 0
+            demand.found[state[CATCHMENT]] += 1
+            _expect(state[CATCHMENT], demand, streets.distance)
     return False

@@ -14,8 +14,8 @@ from trihex.planners.kernels.residual import AFTER, BEFORE, BEGIN, NETWORK, STRE
 class Laid(NamedTuple):
     """What lanes make of an area."""
 
-    moves: OUT_U16  # bits of the moves that a wave from the lanes may take: none leads into a lane
-    distance: OUT_I32  # along the lane, of its sites; of destinations 0 beforehand
+    moves: OUT_U16  # bits of the moves that a wave from the lanes may take: none leads into a lane or a destination
+    distance: OUT_I32  # along the lane, of its sites; known of destinations beforehand
     direction: OUT_U16  # the bit of the one direction of a site of a lane
     sites: OUT_I32  # the sites of all lanes, one lane after the other
 
@@ -28,7 +28,7 @@ def _lay_lane(start, first, streets, network, laid):
     """Fill the sites of a lane from place `first` on, with directions and distances; return the place behind it."""
     size = len(streets.moves)
     filled, site = first, start
-    while streets.distance[site] != 0:
+    while network.ends[site] < 0:
         following = np.int64(network.node[site, AFTER]) - 1
         if following >= size:
             following = np.int64(network.node[following, AFTER]) - 1
@@ -65,4 +65,7 @@ def lay(demand, streets, network, laid):
             filled = _lay_lane(start, filled, streets, network, laid)
     for i in range(filled):
         _shut(np.int64(laid.sites[i]), streets, laid)
+    for site in range(len(network.ends)):
+        if network.ends[site] >= 0:
+            _shut(np.int64(site), streets, laid)
     return filled

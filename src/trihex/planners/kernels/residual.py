@@ -31,6 +31,7 @@ class Streets(NamedTuple):
 
     moves: IN_U16  # bits of the directions that may be taken from a site
     distance: IN_I32  # of a site, what it costs at least to get to a destination
+    catchment: IN_I32  # of a site: lanes keep to the catchment where they begin
     offset: TABLE_I32  # what a direction adds to a site, by parity of the site
     vertex: TABLE_I32  # what it adds to get the lattice vertex passed
     ring: IN_I32  # what to add to the number of a vertex to get the sites around it
@@ -44,7 +45,7 @@ class LaneNetwork(NamedTuple):
     """The lanes so far, and what searches know."""
 
     node: types.Array(types.int32, 2, "C")  # a row for each node, see above
-    ends: OUT_I32  # how many lanes end in a destination, by site
+    ends: OUT_I32  # how many lanes end in a destination, by site; -1 elsewhere
     seen: OUT_I32  # nodes that a search has seen; room for all
     level: OUT_I32  # stack of the nodes that are as near as the one under way; room for all
 

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import types
 
+from trihex.kernels.doors import DOORS, has_doors, is_door_full
 from trihex.kernels.signatures import HELPER, IN_I32, OUT_BOOL, OUT_I32, OUT_U8, declared, kernel
 from trihex.running.kernels.lines import Forest, LivingWays, WaitingLines, line_at, slot_of
 
@@ -56,6 +57,9 @@ class Held(NamedTuple):
     left_until: OUT_I32  # of a site: the half tick until which somebody owns it who leaves it; only where `is_timed`
     passed_until: OUT_I32  # of a vertex: the tick until which somebody passes it
     entered_until: OUT_I32  # of each place of a destination: the half tick until which somebody enters it
+    let_in: OUT_I32  # of each door, where there are some: how many come in at each of the next ticks
+    let_in_at: OUT_I32  # and at which
+    doors: DOORS
     led: OUT_I32  # of the last site of each branch: the tick after that at which somebody led it
 
 
@@ -93,9 +97,25 @@ def _owns_from(k, rules, held):
 
 
 @HELPER
+def _count_of(target, end, held):
+    """Return where it is kept how many come in by a door at tick `end`."""
+    ahead = len(held.let_in) // len(held.doors.rate)
+    return (np.int64(held.doors.number[target]) - 1) * ahead + end % ahead
+
+
+@HELPER
+def _is_shut(target, end, held):
+    """Tell whether a door lets nobody in at tick `end`, or as many as it does are coming."""
+    if not has_doors(held.doors) or held.doors.number[target] == 0:
+        return False
+    at = _count_of(target, end, held)
+    return is_door_full(target, end, np.int64(held.let_in[at]) * (held.let_in_at[at] == end), held.doors)
+
+
+@HELPER
 def _is_barred(here, k, target, rules, ways, walkers, held):
     """Tell whether a robot is there or still leaves, one passes the same vertex, or enough enter the destination."""
-    if walkers.occupied[target]:
+    if walkers.occupied[target] or _is_shut(target, rules.tick + held.duration[k], held):
         return True
     if k >= rules.first_vertex_move and held.passed_until[here + ways.vertex[here & 1, k]] > rules.tick:
         return True
@@ -196,6 +216,10 @@ def _move(robot, here, taken, rules, ways, walkers, held):
     walkers.came_from[robot] = here
     walkers.site[robot] = target
     enters, end = ways.distance[target] == 0, rules.tick + held.duration[taken]
+    if has_doors(held.doors) and held.doors.number[target]:
+        at = _count_of(target, end, held)
+        held.let_in[at] = held.let_in[at] * (held.let_in_at[at] == end) + 1
+        held.let_in_at[at] = end
     if taken >= rules.first_vertex_move:
         held.passed_until[here + ways.vertex[here & 1, taken]] = end
     if rules.is_timed:

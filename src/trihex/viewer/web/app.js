@@ -29,7 +29,7 @@ import { Stage } from "./stage.js";
 import { Status } from "./status.js";
 import { Theme } from "./theme.js";
 import { Tools } from "./tools.js";
-import { undergroundOf } from "./underground.js";
+import { groundFor, undergroundOf } from "./underground.js";
 
 export class App {
   constructor(root, settings, host, first) {
@@ -152,7 +152,7 @@ export class App {
   // Take an answer of the host: a document, and the plan for it if there is one.
   take({ header, arrays }, { isEdit = true } = {}) {
     const plain = documentOf(header.document, arrays);
-    const doc = { ...plain, ground: undergroundOf(header, arrays, plain.barriers) };
+    const doc = { ...plain, ground: undergroundOf(header, arrays, plain.barriers) ?? groundFor(plain, this.doc) };
     const run = header.summary ? runOf({ header, arrays }, doc) : null;
     // A file may hold the plan beside it as well.
     const beside = arrays.beside ? runOf(decode(arrays.beside.slice())) : null;

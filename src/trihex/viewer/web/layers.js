@@ -4,6 +4,8 @@ import { h, number } from "./words.js";
 import { labelled } from "./controls.js";
 import { complaintOf } from "./hosts.js";
 
+const NONE_OPTIMAL = "Prices are those of the best plan: plan, or compare, with Optimal.";
+
 const greatestAmong = (values) => values.reduce((most, value) => (value > most ? value : most), 0);
 
 // A map as an answer tells it.
@@ -16,6 +18,7 @@ export class Layers {
   constructor(app) {
     this.app = app;
     this.kinds = app.settings.layers ?? {};
+    this.isFetching = false;
     const option = ([name, { label, hint }]) => h("option", { value: name, title: hint }, label);
     const plain = ["", { label: "None", hint: "" }];
     this.menu = h("select", { "aria-label": "Map", onchange: () => this.changed() },
@@ -37,26 +40,49 @@ export class Layers {
     return value > 0 ? `${amount(value)} ${layer.unit}` : "";
   }
 
+  // Only the best plan has prices, and they take long.
+  get #isSlow() { return this.kinds[this.menu.value]?.is_of_optimum; }
+
+  // The plans that have a map of the wanted kind which is not here; a run that is over has all its maps with it.
+  get #lacking() {
+    const { app, menu: { value: layer } } = this;
+    return app.runs.filter((run) => layer && run?.plan && !run.layers[layer] && (!this.#isSlow || run.summary.optimal));
+  }
+
   // Another map is wanted, or there are other plans.
   async changed() {
-    const { app } = this, layer = this.menu.value, { host } = app;
+    const { app } = this;
     app.stage.show();
-    if (!layer || !host) return;
-    for (const run of app.runs) {
-      if (!run?.plan || run.layers[layer]) continue; // a run that is over has its maps with it
-      try {
-        const { header, arrays } = await host.ask({ op: "layer", plan: run.plan, layer });
-        run.layers[layer] = layerOf(header, arrays.values);
-        if (app.runs.includes(run)) app.stage.show();
-      } catch (error) {
-        app.say(complaintOf(error), true);
-      }
+    if (this.#isSlow && !this.#lacking.length && !this.most) app.say(NONE_OPTIMAL, true);
+    if (!app.host || this.isFetching) return;
+    this.isFetching = true;
+    while (this.#lacking.length) await this.#fetch(this.#lacking[0], this.menu.value); // meanwhile that may be another
+    this.isFetching = false;
+  }
+
+  // Ask for a map; what takes long can be cancelled, and is not asked for again by itself.
+  async #fetch(run, layer) {
+    const { app } = this, request = { op: "layer", plan: run.plan, layer };
+    try {
+      const answer = this.#isSlow ? await app.ask(request, {}, "Pricing…") : await app.host.ask(request, {});
+      if (!answer) return this.#choose("");
+      run.layers[layer] = layerOf(answer.header, answer.arrays.values);
+      if (app.runs.includes(run)) app.stage.show();
+    } catch (error) {
+      app.say(complaintOf(error), true);
+      this.#choose("");
     }
+  }
+
+  // What cannot be had is not asked for again by itself.
+  #choose(layer) {
+    this.menu.value = layer;
+    this.app.stage.show();
   }
 
   show() {
     const { live, runs } = this.app;
     this.element.hidden = !!live || !runs[0] || !Object.keys(this.kinds).length;
-    if (runs.some((run) => run && !this.of(run))) this.changed();
+    if (!live && this.#lacking.length) this.changed();
   }
 }

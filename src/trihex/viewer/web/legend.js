@@ -46,7 +46,8 @@ export class Legend {
   }
 
   #ramp(palette) {
-    const { panes: [pane], layers } = this.app, { layer } = pane;
+    const { panes, runs, layers } = this.app, [pane] = panes;
+    const layer = pane.layer ?? (runs[1] ? panes[1].layer : null); // only the best plan has prices
     const scale = (shades, words, hint) => {
       const ramp = h("i", { class: "ramp" });
       const stops = [0, 64, 128, 192, 255].map((i) => css(shades[i]));

@@ -1,0 +1,43 @@
+"""Runs where doors have a flow: all arrive, whatever is late or shut; the judge of runs; what cannot be followed."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import trihex as th
+from tests.judging.test_doors import TIMES
+from tests.oracles.timed import with_time
+from tests.strategies import random_scenario, with_random_doors
+from tests.sweeps import swept
+from trihex.running import Execution, Trial, audit_run
+
+
+@pytest.mark.parametrize("planner", ["greedy", "fcost"])
+def test_all_arrive_by_the_rules(planner):
+    for seed in range(swept(100, 20)):
+        scenario = random_scenario(seed, sides=(2, 6), waiting_costs=(None,))
+        scenario = with_time(with_random_doors(scenario), *TIMES[seed % 4])
+        run = Trial(scenario, planner=planner, sensor=2 if seed % 2 else None, delay=0.1 * (seed % 3), seed=seed).run()
+        assert audit_run(run).is_clean, seed
+        can_arrive = np.ones(scenario.robot_count, dtype=bool)
+        can_arrive[th.make_n_scheme(scenario).unreachable_robots] = False
+        assert np.array_equal(run.arrived, can_arrive), seed
+
+
+@pytest.mark.parametrize("time", TIMES)
+def test_the_judge_of_runs_tells_who_came_while_a_door_was_shut(time):
+    area = th.Area("square", [[0, 0, 0, 0, 0]])
+    scenario = with_time(th.Scenario(area, [(4, 0)], [(0, 0), (1, 0)]), *time)
+    run = Trial(scenario, planner="greedy").run()
+    assert audit_run(run).is_clean
+    late = audit_run(replace(run, scenario=replace(scenario, doors=[((3, 0), "1/50")])))
+    assert [conflict.kind for conflict in late.conflicts] == ["capacity"] * 2
+    assert "enters the door" in late.conflicts[0].text
+
+
+@pytest.mark.parametrize(("planner", "options"), [("optimal", {}), ("fcost", {"replan": True})])
+def test_plans_are_not_followed_where_doors_have_a_flow(planner, options):
+    scenario = th.Scenario(th.Area("square", [[0, 0, 0]]), [0], [2], destination_capacity=0.5)
+    with pytest.raises(th.ExecutionError, match="planner must be greedy or fcost, without replan, where doors have"):
+        Execution(scenario, planner, **options)
