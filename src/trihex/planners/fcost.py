@@ -23,6 +23,8 @@ _FEW, _SPARSE = 2_000_000, 32
 _VISITS = 50_000
 # Doors get prices where robots lose more than such a part of the time, among so many destinations at most.
 _WORTH, _MOST_DESTINATIONS = 0.03, 1000
+# Lanes without prices are then not looked for where so many robot-steps take no more than so many times the distances.
+_LARGE, _ENOUGH = 100_000, 1.08
 # Of so many robots and more each looks for a way better than a free one in every fourth step only: half the time, and
 # totals 0.2 % larger; in small crowds it would be 1 to 2 %.
 _MANY, _PERIOD = 10_000, 4
@@ -85,7 +87,9 @@ def _run(n_scheme: NScheme, rule: str, keeps_actions: bool, progress: Progress |
     shared = _shared(d_scheme, best, most_visits) if has_lanes else None
     if shared is not None:
         lanes, paid = shared
+        distances = best.crowd.total_distance
         best = _better(best, _simulated(lanes.d_scheme, "aside", keeps_actions, progress, best.total_time + paid))
+        has_lanes = steps < _LARGE or best.total_time > _ENOUGH * distances
     best = _better(best, run_greedy(n_scheme, keeps_actions, progress, best.total_time))
     if steps <= _FEW and not scenario.moves_by_steps:  # small crowds gain 1 to 2 %
         best = _better(best, _simulated(d_scheme, "queue", keeps_actions, progress, best.total_time))
