@@ -59,6 +59,13 @@ def test_every_run_ends_safely_and_leaves_nobody_behind(share, time):
             assert np.array_equal(run.time_of_robot[run.arrived], (run.ended - run.joined)[run.arrived]), seed
 
 
+def test_robots_that_are_entering_the_last_destination_end_their_move_though_it_closes():
+    """There is nothing to be planned for anybody then."""
+    run = random_trial(220, ("costs", "allow"), sides=(3, 10)).run()
+    assert audit_run(run).is_clean
+    assert breaches(run) == []
+
+
 def test_a_robot_may_join_where_another_begins_to_come_at_once():
     """Who joins goes on in the same tick, and the other one follows it."""
     run = random_trial(291, ("costs", "allow"), sides=(3, 10)).run()
