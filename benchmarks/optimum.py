@@ -1,9 +1,8 @@
-"""Optimum: CPU seconds and memory of the planner `optimal`, and how often as long OR-tools takes.
+"""Optimum: CPU seconds and memory of the planner `optimal`, and how often as long other libraries take.
 
 With ``--maps FOLDER`` on MovingAI maps, else on generated areas of like size and kind; robots at random, a destination
 that at least 70 % of the free cells reach, seeds 1, 2, 3. Seconds are those of `make_plan` but for the N-scheme, after
-a warm-up; each case runs in a process of its own, whose peak memory is told. OR-tools gets the same graph as arrays,
-and the step of the last arrival for nothing; only what it takes to solve is counted.
+a warm-up; each case runs in a process of its own, whose peak memory is told. The rivals are in `benchmarks.rivals`.
 """
 
 import argparse
@@ -13,12 +12,11 @@ from pathlib import Path
 from time import process_time
 
 import numpy as np
-from numpy.typing import NDArray
 
 import trihex as th
 from benchmarks.bounds import scenario_on
 from benchmarks.measure import machine
-from trihex.optimum import make_network
+from benchmarks.rivals import RIVALS, flow_of, most_by_maxflow
 
 CASES = (
     ("hexagonal", "random-64-64-20", 1000),
@@ -49,10 +47,10 @@ def area_of(maps: Path | None, tessellation: str, name: str) -> th.Area:
     return th.GENERATORS[kind](tessellation, side, side, seed=1, **options)
 
 
-def seconds_of(n_scheme: th.NScheme) -> tuple[float, th.Plan]:
+def seconds_of(n_scheme: th.NScheme, **options: str) -> tuple[float, th.Plan]:
     """Return the CPU time of an optimal plan, and the plan."""
     begin = process_time()
-    plan = th.make_plan(n_scheme.scenario, "optimal", n_scheme=n_scheme)
+    plan = th.make_plan(n_scheme.scenario, "optimal", n_scheme=n_scheme, **options)
     return process_time() - begin, plan
 
 
@@ -80,59 +78,30 @@ def run_case(maps: Path | None, case: Case, seeds: list[int]) -> None:
     )
 
 
-def arcs_of(n_scheme: th.NScheme, steps: int) -> tuple[NDArray[np.int64], int]:
-    """Return arcs (tail, head, capacity, cost) of the graph of cells and steps up to `steps`, and nodes in a layer.
-
-    Node i of layer u is entered at 2 (u * nodes + i) + 1 and left at one more; 0 is where all robots end up.
-    """
-    network = make_network(n_scheme)
-    robots, size = n_scheme.scenario.robot_count, network.node_count
-    tail, place = np.nonzero(network.out_arcs[:, :, 0])
-    _, reduced, _, _, head, rows = network.out_arcs[tail, place].T.astype(np.int64)
-    cost = reduced + network.value[tail] - network.value[head]
-    goals = np.arange(network.first_destination, size)
-    parts = []
-    for layer in range(steps + 1):
-        own = np.flatnonzero(network.hops[: network.first_destination] <= layer)
-        enter = 2 * (layer * size + own) + 1
-        parts.append(np.stack([enter, enter + 1, *np.broadcast_arrays(1, np.zeros_like(own))], axis=1))
-        is_open = (network.hops[tail] <= layer) & (layer + rows <= steps)
-        leave, into = 2 * (layer * size + tail) + 2, 2 * ((layer + rows) * size + head) + 1
-        parts.append(np.stack(np.broadcast_arrays(leave, into, 1, cost), axis=1)[is_open])
-        ends = 2 * (layer * size + goals) + 1
-        parts.append(np.stack(np.broadcast_arrays(ends, 0, robots, 0), axis=1))
-    return np.concatenate(parts), size
-
-
-def or_tools(n_scheme: th.NScheme, steps: int) -> tuple[float, int, int]:
-    """Return CPU seconds, least total time and arcs."""
-    from ortools.graph.python.min_cost_flow import SimpleMinCostFlow
-
-    network = make_network(n_scheme)
-    arcs, size = arcs_of(n_scheme, steps)
-    cells = network.node_of_site[n_scheme.scenario.area.layout.cell_to_site(n_scheme.scenario.robots)]
-    starts = 2 * (network.hops[cells].astype(np.int64) * size + cells) + 1
-    flow = SimpleMinCostFlow()
-    flow.add_arcs_with_capacity_and_unit_cost(*(np.ascontiguousarray(column) for column in arcs.T))
-    flow.set_nodes_supplies(np.append(starts, 0), np.append(np.ones_like(starts), -starts.size))
-    begin = process_time()
-    assert flow.solve() == flow.OPTIMAL
-    return process_time() - begin, flow.optimal_cost() * network.unit, len(arcs)
-
-
 def compare(maps: Path | None, tessellation: str, robots: int) -> None:
-    """Print how many times as long OR-tools takes on the small map."""
+    """Print how many times as long the rivals take on the small map."""
     warm_up()
     area = area_of(maps, tessellation, "random-64-64-20")
     inside = scenario_on(area, robots, 1)
     unreachable = th.make_n_scheme(inside).unreachable_robots
     n_scheme = th.make_n_scheme(inside.with_robots(np.delete(inside.robots, unreachable)))
+    count = n_scheme.scenario.robot_count
     seconds, plan = seconds_of(n_scheme)
-    theirs, total, arcs = or_tools(n_scheme, plan.steps)
-    assert total == plan.total_time
+    flow = flow_of(n_scheme, plan.steps)
+    print(f"{tessellation} {area.name}, {count} robots, {plan.steps} steps, {len(flow.arcs)} arcs")
+    for name, solve in RIVALS.items():
+        theirs, total = solve(flow)
+        assert total == plan.total_time
+        print(
+            f"    least total time: {name} {theirs:.1f} s, {theirs / seconds:.0f} times optimal's {seconds:.3f} s",
+            flush=True,
+        )
+    seconds, plan = seconds_of(n_scheme, objective="steps")
+    (none, fewer), (theirs, all_) = (most_by_maxflow(flow_of(n_scheme, plan.steps - less)) for less in (1, 0))
+    assert fewer < all_ == count
     print(
-        f"{tessellation} {area.name}, {n_scheme.scenario.robot_count} robots, {plan.steps} steps, {arcs} arcs, optimum "
-        f"{total}: OR-tools {theirs:.1f} s, {theirs / seconds:.0f} times optimal's {seconds:.3f} s",
+        f"    fewest steps: PyMaxflow {none:.1f} s for {plan.steps - 1}, {theirs:.1f} s for {plan.steps}, "
+        f"{(none + theirs) / seconds:.0f} times optimal's {seconds:.3f} s",
         flush=True,
     )
 
@@ -142,15 +111,15 @@ def main(options: list[str]) -> None:
     parser.add_argument("--maps", type=Path, help="folder of the MovingAI maps")
     parser.add_argument("--only", default="", help="only cases that contain this, such as 'hexagonal ost003d'")
     parser.add_argument("--seeds", nargs="*", type=int, default=[1, 2, 3])
-    parser.add_argument("--or-tools", nargs="*", type=int, default=[300], help="robots beside OR-tools")
+    parser.add_argument("--rivals", nargs="*", type=int, default=[100, 300], help="robots beside other libraries")
     chosen = parser.parse_args(options)
-    print(machine("ortools"))
+    print(machine("ortools", "pylmcf", "PyMaxflow"))
     header = f"{'CPU seconds by seed':>{9 * len(chosen.seeds) - 1}}{'median':>9}{'GiB':>8}   optimum"
     print(f"{'tessellation':13}{'area':20}{'robots':>7}{header}")
     spawn = multiprocessing.get_context("spawn")
     jobs = [(run_case, (chosen.maps, case, chosen.seeds)) for case in CASES if chosen.only in " ".join(map(str, case))]
     for tessellation in ("hexagonal", "triangular"):
-        jobs += [(compare, (chosen.maps, tessellation, robots)) for robots in chosen.or_tools]
+        jobs += [(compare, (chosen.maps, tessellation, robots)) for robots in chosen.rivals]
     for function, arguments in jobs:
         process = spawn.Process(target=function, args=arguments)
         process.start()

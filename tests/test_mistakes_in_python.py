@@ -24,6 +24,9 @@ CASES = {
     "barrier on a destination": ("field.change(blocked=(5, 3))", "a cell must not be blocked while it is a destination: (5, 3)"),
     "axial coordinates of squares": ("area.with_tessellation('square').cell_to_axial(0)", "axial and cube coordinates are of hexagons; the area is square"),
     "start times of some": ("th.Scenario(area, (5, 3), [(0, 3), (1, 3)], start_times=[3])", "start_times must be one for each of 2 robots, not 1"),
+    "door of a second, made by hand": ("th.Door([3], '1.6/s')", "flow of a door must be robots a step, not '1.6/s'; make_doors takes both"),
+    "door of places": ("th.Door([(3, 1)], 1)", "cells of a door must be numbers in a list or a flat array, not [(3, 1)]"),
+    "flow in words": ("th.Scenario(area, (5, 3), doors=[((5, 3), 'half')])", "capacity of a door must be a number of robots above 0: a step, such as 2, 0.5 or 1/3, or in metres a second, such as 1.6/s; not 'half'"),
     # areas
     "area of floats": ("th.Area('hexagonal', [[0.2, 0.7]])", "barriers must be True and False, or 1 and 0, not 0.2: say which values are barriers, such as grid > 0"),
     "area of grey values": ("th.Area('hexagonal', np.full((2, 2), 255))", "barriers must be True and False, or 1 and 0, not 255: say which values are barriers, such as grid > 0"),

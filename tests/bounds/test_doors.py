@@ -10,12 +10,14 @@ from tests.oracles.gaps import crowded_scenario
 from tests.oracles.timed import solve_timed, with_time
 from tests.strategies import random_scenario, with_random_doors, with_start_times
 from tests.sweeps import swept
+from trihex.bounds import queue_bound
 from trihex.planners import make_plan
 
 
 def values(scenario):
     n_scheme = th.make_n_scheme(scenario)
-    return [bound(n_scheme).value for bound in (th.distance_bound, th.slot_bound, th.cut_bound)]
+    bounds = (th.distance_bound, th.slot_bound, th.cut_bound, queue_bound, th.make_lower_bound)
+    return [bound(n_scheme).value for bound in bounds]
 
 
 def test_bounds_are_below_the_optimum():

@@ -6,7 +6,7 @@ import pytest
 import trihex as th
 from tests.oracles import flow as oracle_flow
 from tests.oracles.optimum import least_total_time
-from tests.strategies import random_scenario
+from tests.strategies import random_scenario, with_random_doors, with_start_times
 from tests.sweeps import swept
 from trihex.optimum import Network, earliest, flow, make_network, priced, workspace
 from trihex.planners import make_plan, optimal, planner_named
@@ -74,16 +74,36 @@ def test_slots_exchanged_for_earlier_ones_cost_as_little(monkeypatch, planner, b
     assert len(found) >= len(seeds) / 4
 
 
+def plan_at_prices(monkeypatch, rebate):
+    """Plan at prices that rise only; arrivals are priced by so much below what they are worth, or above, at first."""
+    monkeypatch.setattr(optimal, "make_flow_singly", lambda *arguments, **options: None)
+    monkeypatch.setattr(Network, "has_equal_steps", property(lambda self: False))
+    monkeypatch.setattr(priced, "_REBATE", rebate)
+
+
+# Arrivals a little too cheap, as ever; some too dear, so that prices fall, too; all for nothing.
+REBATES = [1, -2, 1000]
+
+
 @pytest.mark.parametrize("share", range(10))
 def test_prices_that_rise_cost_as_little(monkeypatch, share):
     """All that may become full or end early does so; the robots crowd, on all tessellations."""
-    monkeypatch.setattr(optimal, "make_flow_singly", lambda *arguments, **options: None)
-    monkeypatch.setattr(Network, "has_equal_steps", property(lambda self: False))
+    plan_at_prices(monkeypatch, REBATES[share % 3])
     monkeypatch.setattr(workspace, "SPARE_LAYERS", 4)
     changes = {"_BUDGET": 50, "_LIST": 16, "_RISES": 8, "SPARE_LAYERS": 4}
     seeds = range(3_000 + share, 3_000 + swept(300, 30), 10)
     found = least_total_times_by(monkeypatch, priced, "make_flow_at_prices", seeds, **changes)
     assert len(found) >= len(seeds) / 4  # where waiting is free no flow is needed
+
+
+@pytest.mark.parametrize("rebate", REBATES)
+def test_prices_know_shut_doors_and_robots_that_may_not_go_yet(monkeypatch, rebate):
+    plan_at_prices(monkeypatch, rebate)
+    for seed in (900_010, 900_046, 900_047, *range(4_000, 4_000 + swept(30, 3))):
+        scenario = with_random_doors(with_start_times(crowded_scenario(seed), seed))
+        plan = make_plan(scenario, "optimal")
+        assert th.audit_plan(plan).is_clean, seed
+        assert plan.total_time == oracle_flow.least_total_time(scenario, plan.steps + 5), seed
 
 
 @pytest.mark.parametrize("share", range(5))

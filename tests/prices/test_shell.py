@@ -1,6 +1,7 @@
 """`trihex prices`: rows, words and a picture; what was interrupted goes on."""
 
 import csv
+import signal
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,7 @@ from PIL import Image
 import trihex as th
 from tests.prices.test_prices import crowded_scenario
 from trihex.cli import main
+from trihex.cli.prices import price_lines
 from trihex.formats import PricesJournal
 
 WORLD = "....#...\n##.#.##.\n....#...\n.##..#.D\n....#...\n"
@@ -57,6 +59,33 @@ def test_work_that_was_interrupted_goes_on(folder):
     run(*PRICES, "--out", "p.csv")
     assert Path("p.csv").read_bytes() == Path("whole.csv").read_bytes()
     assert "add --out to be able to go on" in run(*PRICES, "--limit-seconds", "1e-9")
+
+
+def test_ctrl_c_keeps_what_was_done(folder, monkeypatch):
+    run(*PRICES, "--out", "whole.csv")
+    note = PricesJournal.note
+
+    def note_and_interrupt(journal, kind, cell, price):
+        note(journal, kind, cell, price)
+        signal.raise_signal(signal.SIGINT)
+
+    before = signal.getsignal(signal.SIGINT)
+    monkeypatch.setattr(PricesJournal, "note", note_and_interrupt)
+    out = run(*PRICES, "--out", "p.csv", status=130)
+    assert "written: p.csv" in out and "not known" in out
+    assert len(Path("p.csv.part").read_text().splitlines()) == 2
+    assert signal.getsignal(signal.SIGINT) == before
+    monkeypatch.undo()
+    monkeypatch.chdir(folder)
+    run(*PRICES, "--out", "p.csv")
+    assert Path("p.csv").read_bytes() == Path("whole.csv").read_bytes()
+
+
+def test_a_door_that_is_not_sought_to_the_end_is_not_proven():
+    plan = th.make_plan(crowded_scenario(28), "optimal")
+    prices = th.make_prices(plan, kinds="door", stop=lambda: True)
+    assert prices.best_door is None and not prices.is_complete
+    assert price_lines(prices)[-1] == "best next door: not known"
 
 
 def test_only_some_kinds_are_priced(folder):

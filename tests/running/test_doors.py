@@ -10,7 +10,7 @@ from tests.judging.test_doors import TIMES
 from tests.oracles.timed import with_time
 from tests.strategies import random_scenario, with_random_doors
 from tests.sweeps import swept
-from trihex.running import Execution, Trial, audit_run
+from trihex.running import Event, Execution, Trial, audit_run
 
 
 @pytest.mark.parametrize("planner", ["greedy", "fcost"])
@@ -41,3 +41,17 @@ def test_plans_are_not_followed_where_doors_have_a_flow(planner, options):
     scenario = th.Scenario(th.Area("square", [[0, 0, 0]]), [0], [2], destination_capacity=0.5)
     with pytest.raises(th.ExecutionError, match="planner must be greedy or fcost, without replan, where doors have"):
         Execution(scenario, planner, **options)
+
+
+def test_a_door_may_be_blocked_and_an_exit_closed_meanwhile():
+    """What is left of a door keeps its turns; a cell that was a destination stays a door."""
+    area = th.Area("square", np.zeros((3, 9), bool), zones=[th.Zone("east", [8, 17, 26])])
+    doors = [([4, 13, 22], 1), ([8, 17, 26], "1/2")]
+    scenario = th.Scenario(area, [8, 17, 26], [1, 2, 3, 10, 11, 12], doors=doors)
+    events = [Event(1, "barrier", cell=(4, 0)), Event(4, "close", cell=(8, 1)), Event(9, "clear", cell=(4, 0))]
+    for planner in ("greedy", "fcost"):
+        run = Trial(scenario, planner=planner, events=events).run()
+        assert audit_run(run).is_clean and run.arrived.all()
+        assert all(one.is_accepted for one in run.occurrences)
+        last = run.arrival_step_of_robot.max()
+        assert last >= 6 * 3  # with one exit closed two thirds of the flow are left

@@ -244,3 +244,17 @@ def test_a_row_tells_lengths_and_waits():
     scenario = th.Scenario(th.Area("square", [[0, 0, 0]]), [(1, 0)], [(0, 0), (2, 0)], destination_capacity=1)
     row = run_case({"scenario": scenario, "planner": {"name": "greedy", "options": {}}, "bound": False})
     assert (row["waits"], row["most_waiting"], row["lower_bound_name"]) == (1, 1, "distance")
+
+
+def test_robots_may_begin_later(tmp_path):
+    (tmp_path / "starts.csv").write_text("x,y,start\n0,0,4\n1,0,0\n")
+    robots = '[{count = 4, start_times = ["uniform:3,9", "constant:5"]}, {file = "starts.csv"}, 4]'
+    text = f'robots = {robots}\nplanners = ["greedy"]\n[[areas]]\ngenerator = "random"\nsize = [9, 7]\ndensity = 0\n'
+    rows = list(th.run_study(written(tmp_path, text)))
+    assert not any(row["error"] for row in rows)
+    assert len({row["scenario"] for row in rows}) == 4
+    assert rows[0]["placement"] == '{"count":4,"start_times":"uniform:3,9"}' and rows[3]["placement"] == "uniform"
+    at_once, late = rows[3], rows[1]
+    assert late["total_time"] >= at_once["total_distance"] + 4 * 5 * 10 and rows[2]["total_waiting"] >= 40
+    with pytest.raises(th.FormatError, match=r"robots.0.start_times.1: must be drawn as one of .*, not 'soon'"):
+        th.read_study(written(tmp_path, text.replace("constant:5", "soon")))

@@ -51,9 +51,20 @@ def test_prices_are_those_of_the_best_plan():
     np.testing.assert_array_equal(walls, np.maximum(0, prices.price_of_cell("barrier")))
     np.testing.assert_array_equal(chokes, np.maximum(0, prices.price_of_cell("choke")))
     assert (walls > 0)[best.scenario.area.barriers].any() and not (walls > 0)[~best.scenario.area.barriers].any()
+    door = make_layer("door", best)
+    assert best.scenario.area.cell_to_xy(int(door.arrays["values"].argmax())) == prices.best_door
+    assert door.header["unit"] == "time units saved by a door" and not door.header["are_seconds"]
     told, page = [], with_layers(Bundle({}, {}), best)
     make_layer("walls", best, lambda done, total: told.append((done, total)))
     assert told and sorted(page.header["layers"]) == ["density", "waiting"]  # what takes long is not made unasked
+
+
+def test_prices_in_metres_are_seconds():
+    area = th.Area(th.Tessellation("square", "edge"), [[0, 1, 0], [0, 1, 0], [0, 0, 0]], frame=th.Frame(20.0))
+    best = make_plan(th.Scenario(area, [(2, 0)], [(0, 0), (0, 1)], following="allow"), "optimal")
+    walls = make_layer("walls", best)
+    assert walls.arrays["values"].reshape(3, 3)[:, 1].tolist() == [120, 80, 0]
+    assert walls.header["unit"] == "s saved if open" and walls.header["are_seconds"]
 
 
 def test_the_desk_has_layers_of_its_plans_and_says_what_there_is_not():
@@ -135,6 +146,12 @@ def test_prices_are_seen_beside_a_plan_that_has_none(open_viewer):
     values = np.maximum(0, th.make_prices(make_plan(plan.scenario, "optimal")).price_of_cell("barrier"))
     assert shown_by(shown.colours(1), values, values.max()).all() and shown.ask("app.panes[0].layer") is None
     assert "time units saved if open" in shown.text(".legend")
+    y, x = np.argwhere(values == values.max())[0]
+    shown.page.mouse.move(*map(float, shown.place(x, y, 1)))
+    assert f"opening this wall saves {values.max()} time units for all together" in shown.text(".readout")
+    layer = "{values: [9.5, 200], are_seconds: true, sentence: 'saves {}'}"
+    told = shown.ask(f"[0, 1].map((cell) => app.layers.wordsOf({{layers: {{walls: {layer}}}}}, cell))")
+    assert told == ["saves 9.5 s", "saves 3 min 20 s"]
     shown.keep("prices-of-walls")
     menu.select_option("waiting")  # another one is wanted while the first is on its way
     shown.ask("app.layers.menu.value = 'density', app.layers.changed(), 0")

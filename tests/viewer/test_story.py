@@ -50,11 +50,15 @@ def show_step(shown, step):
     shown.wait(f"app.runs[0].playback.step === {step}")
 
 
-@pytest.mark.parametrize("tessellation", ["triangular", "hexagonal", "square"][: swept(3)])
+WINDOWS = {"triangular": (1400, 900), "hexagonal": (1024, 768), "square": (1280, 800)}
+
+
+@pytest.mark.parametrize("tessellation", list(WINDOWS)[: swept(3)])
 def test_the_story(open_viewer, tmp_path, tessellation):
     (tmp_path / "yard.map").write_text(AREA)
     barriers = np.array([list(row) for row in AREA.splitlines()[4:]]) == "@"
-    shown = open_viewer()
+    width, height = WINDOWS[tessellation]
+    shown = open_viewer(viewport={"width": width, "height": height})
     page = shown.page
 
     # open an area

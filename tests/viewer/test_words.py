@@ -73,6 +73,22 @@ def test_every_number_has_a_sentence(open_viewer):
     assert page.locator(".results tbody tr").count() > 7 and unexplained(shown, ".results tbody tr") == []
     untitled = "[data-section=Live] label:not([title]), .inner label.field:not([title]):not(:has([data-option]))"
     assert page.locator(untitled).count() == 0
+    assert shown.page.evaluate("[...document.querySelectorAll('[title]')].filter((e) => e.title === 'undefined')") == []
+    assert unexplained(shown, ".sets, .chart figure, [data-section='Cells and rules'] .inner label") == []
+
+
+def test_two_plans_tell_what_their_difference_is_made_of(open_viewer):
+    one, two = (make_plan(crowd(), planner) for planner in ("greedy", "optimal"))
+    shown = open_viewer(one)
+    shown.page.get_by_label("Planner beside it").select_option("optimal")
+    shown.press("Compare")
+    shown.wait("app.runs[1] && !app.job")
+    first, second = th.make_report(one), th.make_report(two)
+    waits, moves = first.total_waiting - second.total_waiting, first.total_distance - second.total_distance
+    assert waits + moves == one.total_time - two.total_time > 0
+    words = [f"{what} {abs(by)} {'more' if by > 0 else 'less'}" if by else f"{what} as much"
+             for what, by in (("wait", waits), ("move", moves))]  # fmt: skip
+    assert " and ".join(words) in shown.text(".results").replace("\u2009", "")
 
 
 def test_what_was_used_and_what_is_still_needed_is_told_in_words(open_viewer):

@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trihex.areas.area import Area
-from trihex.areas.flow import flow_from
+from trihex.areas.flow import check_flow, flow_from
 from trihex.areas.places import cells_from
 from trihex.areas.seconds import seconds_per_step
-from trihex.errors import AreaError, ScenarioError, kind_of
-from trihex.record import Record, read_only
+from trihex.errors import AreaError, ScenarioError, check_type, kind_of
+from trihex.record import Record, read_only, short
 
 MOST_CELLS = 10_000  # of a door: with the finest flow their schedule still fits into int64 for 10^9 steps
 
@@ -30,8 +30,8 @@ class Door(Record):
 
     Parameters
     ----------
-    cells : sequence of (x, y), or cell numbers
-        Destinations, or cells that robots pass on their way; kept as numbers, ascending, each once.
+    cells : sequence of cell numbers
+        Destinations, or cells that robots pass on their way; kept ascending, each once.
     flow : Fraction
         Robots a step.
     name : str
@@ -48,7 +48,16 @@ class Door(Record):
     name: str = ""
 
     def __post_init__(self) -> None:
-        self._set("cells", read_only(np.unique(np.asarray(self.cells, dtype=np.int64))))
+        cells = np.asarray(self.cells)
+        if cells.size and (cells.dtype.kind not in "iu" or cells.ndim != 1):
+            raise ScenarioError(f"cells of a door must be numbers in a list or a flat array, not {short(self.cells)}")
+        self._set("cells", read_only(np.unique(cells.astype(np.int64))))
+        if not isinstance(self.name, str):
+            raise ScenarioError(f"name of a door must be text, not {kind_of(self.name)}")
+        flow = check_flow("flow of a door", self.flow)
+        if str(self.flow).strip().endswith("/s"):
+            raise ScenarioError(f"flow of a door must be robots a step, not {self.flow!r}; make_doors takes both")
+        self._set("flow", flow)
 
     def in_words(self) -> str:
         """Return the name, or the number of cells, and the flow."""
@@ -78,15 +87,17 @@ def make_doors(area: Area, given: Any, *, speed: float = 1.0, turn_time: float =
     >>> make_doors(area, [((0, 0), "1.6/s")], speed=2.0)[0].flow
     Fraction(2, 5)
     """
+    check_type("area", area, Area)
     step_seconds = None if area.frame is None else seconds_per_step(area, speed, turn_time)
-    doors = tuple(_door_from(area, one, step_seconds) for one in _pairs(given))
+    given = list(_pairs(given))
+    doors = tuple(_door_from(area, one, step_seconds) for one in given)
     seen: dict[int, str] = {}
     for number, door in enumerate(doors):
         who = f"door {door.name!r}" if door.name else f"door {number}"
         if not 0 < door.cells.size <= MOST_CELLS:
             raise ScenarioError(f"{who} must have 1 to {MOST_CELLS} free cells, not {door.cells.size}")
         barred = door.cells[area.is_barrier(door.cells)]
-        if barred.size:
+        if barred.size and not isinstance(given[number], Door):  # which may have been blocked meanwhile
             raise ScenarioError(f"{who} must have free cells; {area.place_of_cell(int(barred[0]))} is a barrier")
         for cell in door.cells.tolist():
             if cell in seen:

@@ -46,14 +46,14 @@ def find_mouths(demand: Demand, most_looks: int = 3_000_000) -> Mouths:
     is_inside = np.zeros(scenario.area.layout.size, dtype=bool)
     headways = []
     for i in range(sites.size):
-        choices = [nodes.headways(one[i, one[i] >= 0]) for one in ways]
-        if scenario.destination_capacity is not None:
-            choices.append(nodes.headways(sites[i : i + 1]))
+        choices = [nodes.queue_headways(one[i, one[i] >= 0]) for one in ways]
+        if scenario.destination_capacity is not None or nodes.doors_apart[sites[i]]:
+            choices.append(nodes.queue_headways(sites[i : i + 1]))
         best = min(choices, key=_rate)
         if best.size > 1 and search.looks < most_looks:
             throat = search.find(i, ways[0][i, ways[0][i] >= 0])
-            if throat is not None and _rate(nodes.headways(throat.nodes)) < _rate(best):
-                best = nodes.headways(throat.nodes)
+            if throat is not None and _rate(nodes.queue_headways(throat.nodes)) < _rate(best):
+                best = nodes.queue_headways(throat.nodes)
                 is_inside[throat.inside] = True
         headways.append(best)
     return Mouths(headways, is_inside[demand.sites])

@@ -71,6 +71,26 @@ class Nodes(Record):
             places = np.where(own > 0, np.minimum(own, scenario.entry_limit or own), places)
         return places
 
+    @cached_property
+    def doors_apart(self) -> NDArray[np.int64]:
+        """How many ticks at least there are between two robots that come into each site by its flow; 0 for no door.
+
+        Not where a robot starts: it is there without coming in.
+        """
+        schedule, layout = self.scenario.schedule, self.scenario.area.layout
+        apart = np.zeros(layout.size, dtype=np.int64)
+        apart[layout.cell_to_site(schedule.cells)] = schedule.period // schedule.rate
+        apart[layout.cell_to_site(self.scenario.robots)] = 0
+        return read_only(apart)
+
+    def queue_headways(self, nodes: NDArray[np.integer]) -> NDArray[np.int64]:
+        """Return the same as `headways`, or how far apart doors let robots in where that is more."""
+        headway, size = self.headways(nodes), self.scenario.area.layout.size
+        if not self.scenario.has_flows:
+            return headway
+        apart = np.where(nodes < size, self.doors_apart[np.where(nodes < size, nodes, 0)], 0)
+        return np.asarray(np.maximum(headway, np.repeat(apart, self.places(nodes))))
+
     def headways(self, nodes: NDArray[np.integer]) -> NDArray[np.int64]:
         """Return how many ticks there are at least between two robots that pass one of `nodes`.
 

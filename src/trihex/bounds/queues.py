@@ -22,7 +22,7 @@ def queue_past_cuts(demand: Demand, cuts: list[Cut], entries: NDArray[np.int64])
         new = cut.behind[~is_behind[cut.behind]]
         is_behind[new] = True
         queued = np.sort(np.concatenate([queued, demand.steps[new]]))
-        queue_up(queued, demand.nodes.headways(cut.nodes))
+        queue_up(queued, demand.nodes.queue_headways(cut.nodes))
     queued = np.sort(np.concatenate([queued, demand.steps[~is_behind]]))
     queue_up(queued, entries)
     return queued

@@ -117,24 +117,32 @@ def price_lines(prices: Any, speed: float = 1.0) -> list[str]:
     """Return prices in a few lines: how many are something, and the greatest of them."""
     plan, area = prices.plan, prices.plan.scenario.area
     lines = [f"{area.name}: {plan.scenario.robot_count} robots, total time {plan.total_time}, which is the least"]
-    for kind, verb, none in (("barrier", "saves", "save nothing"), ("choke", "costs", "cost nothing")):
+    for kind, verb, what in (("barrier", "save", "to open"), ("choke", "cost", "to close")):
         rows = (prices.kind == kind).nonzero()[0]
         if not rows.size:
             continue
         dear = rows[prices.price[rows] > 0]
-        other = int((prices.robots[rows] != 0).sum())
-        more = f", {other} change who can arrive" if other else ""
-        what = "to open" if kind == "barrier" else "to close"
-        lines.append(
-            f"{kind}s: {dear.size} {verb.rstrip('s')} time {what}, {rows.size - dear.size - other} {none}{more}"
+        other, unknown = (
+            int((prices.robots[rows] != 0).sum()),
+            int((~prices.proven[rows] & (prices.price[rows] == 0)).sum()),
         )
+        told = [f"{kind}s: {dear.size} {verb} time {what}, {rows.size - dear.size - other - unknown} {verb} nothing"]
+        told += [f"{other} change who can arrive"] if other else []
+        lines.append(", ".join([*told, *([f"{unknown} not known"] if unknown else [])]))
         for row in sorted(dear, key=lambda row: (-prices.price[row], prices.cell[row]))[:_MOST_LINES]:
             x, y = area.cell_to_xy(int(prices.cell[row]))
             least = "" if prices.proven[row] else "at least "
-            lines.append(f"  {what} ({x}, {y}) {verb} {least}{prices.told(int(prices.price[row]), speed)}")
-    door = prices.best_door
-    if door:
-        row = int(((prices.kind == "door") & (prices.robots == 0)).nonzero()[0][0])
-        sure = "" if prices.proven[row] else "; a better one is not ruled out"
-        lines.append(f"best next door: {door} saves {prices.told(int(prices.price[row]), speed)}{sure}")
-    return lines
+            lines.append(f"  {what} ({x}, {y}) {verb}s {least}{prices.told(int(prices.price[row]), speed)}")
+    return lines + _door_lines(prices, speed)
+
+
+def _door_lines(prices: Any, speed: float) -> list[str]:
+    """Return what is known of the best next door, in a line; none if it is not asked for, or nothing saves anything."""
+    rows = (prices.kind == "door").nonzero()[0]
+    if not rows.size:
+        return []
+    if prices.best_door is None:
+        return ["best next door: not known"]
+    told = prices.told(int(prices.price[rows[0]]), speed)
+    more = "" if prices.proven[rows[0]] else "; a better one is not ruled out"
+    return [f"best next door: {prices.best_door} saves {told}{more}"]

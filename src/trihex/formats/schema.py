@@ -10,7 +10,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationErr
 from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
-from trihex.areas import check_flow
+from trihex.areas import check_distribution, check_flow
 from trihex.errors import ScenarioError, check_choice
 
 LARGEST = 2**30
@@ -46,6 +46,15 @@ Flow = Annotated[Any, AfterValidator(_flow)]
 def choice(parameter: str, choices: tuple[str, ...]) -> AfterValidator:
     """Return what refuses words that are not among `choices`."""
     return AfterValidator(lambda value: check_choice(parameter, value, choices, ScenarioError))
+
+
+def distribution(value: str) -> str:
+    """Return text that names a distribution of start times."""
+    try:
+        check_distribution(value)
+    except ScenarioError as error:
+        raise ValueError(str(error).removeprefix("start times ")) from None
+    return value
 
 
 def check_document(model: type[Model], document: dict[str, Any]) -> tuple[Model | None, list[str]]:

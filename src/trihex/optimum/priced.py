@@ -1,4 +1,4 @@
-"""Priced flow: the flow of least cost where robots crowd and moves differ in cost, from prices that rise."""
+"""Priced flow: the flow of least cost where robots crowd and moves differ in cost, from prices of arrivals."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from trihex.memory import limit_or_default
 from trihex.optimum.doors import shut_doors
 from trihex.optimum.flow import Flow
 from trihex.optimum.network import Network
+from trihex.optimum.queues import price_arrivals, room_of_slots
 from trihex.optimum.workspace import (
     SPARE_LAYERS,
     check_memory,
@@ -29,9 +30,12 @@ _BUDGET = 500_000
 # Length of the lists at first.
 _LIST = 1 << 16
 # The lists that grow.
-_LISTS = ("sides", "filed", "arrivals", "stack", "seen")
-# For how many units to come it is told apart what is tight when.
-_RISES = 1 << 12
+_LISTS = ("sides", "filed", "arrivals", "vain", "stack", "seen")
+# For how many units to come it is told apart what is tight when, at most and at first.
+_RISES, _AHEAD = 1 << 12, 16
+# By how many of the least costs of a step arrivals are cheaper than if robots met nowhere else. What is too cheap is
+# soon mended, what is too dear takes a search for everybody who does not come.
+_REBATE = 1
 
 
 def make_flow_at_prices(
@@ -42,16 +46,22 @@ def make_flow_at_prices(
     memory_limit: int | None = None,
 ) -> Flow:
     """Find paths of least total cost; for parameters and errors see `trihex.optimum.make_flow_singly`."""
+    from trihex.optimum.kernels.lowering import lower_prices
     from trihex.optimum.kernels.prices import SERVED, TOTAL
     from trihex.optimum.kernels.residual import DONE
     from trihex.optimum.kernels.serving import serve_at_prices
 
     work = _PricedWork(network, cells, memory_limit)
+    wanted = work.lay_tolls()
     status = None
     while status != DONE:
         status = serve_at_prices(work.graph, work.nodes, work.search, _BUDGET)
         if progress:
             progress(int(work.search.state[SERVED]), cells.size)
+        work.make_room(status)
+    status = None
+    while status != DONE:
+        status = lower_prices(wanted, work.graph, work.nodes, work.search)
         work.make_room(status)
     total = int(work.search.state[TOTAL]) + int(network.value[cells].sum(dtype=np.int64))
     return Flow(network, work.search.start, work.nodes.flow, total * network.unit)
@@ -72,13 +82,32 @@ class _PricedWork:
         self.layers = least_layers(network, cells) + SPARE_LAYERS
         self._check_memory(self.layers)
         size = self.layers * network.node_count
-        self.graph = layer_of(network)
+        self.graph = _slim(layer_of(network))
         self.nodes = kernels.PricedNodes(*(np.zeros(size, dtype) for dtype in (np.uint8, np.int32, np.int32)))
         self.search = _make_search(start_nodes(network, cells))
         self.nodes.flow[self.search.start] = START << 4
         self.nodes.flow[held_nodes(network, cells)] = START << 4
         self.nodes.leaving[self.search.start] = kernels.RISES
-        shut_doors(network, self.nodes.flow, 0)
+        self._open_layers(0)
+
+    def lay_tolls(self) -> NDArray[np.int64]:
+        """Begin with prices at which arrivals cost a little less than they will; return nodes where tolls are due."""
+        from trihex.kernels.signatures import given
+        from trihex.optimum.kernels import tolled as kernels
+        from trihex.optimum.kernels.prices import BITS, NEVER, TOTAL, WANTED
+
+        network = self.network
+        room = room_of_slots(network, self.layers)
+        prices = price_arrivals(network, self.cells, room)
+        tolls = np.minimum(np.maximum(prices - _REBATE * network.base, 0), NEVER // 4).astype(np.int32)
+        arcs = np.count_nonzero(network.in_arcs[network.first_destination :, :, 0], axis=1)
+        tolled = given(kernels.Tolled, network.order, network.hops, network.cell_count, tolls, room < arcs)
+        if tolls.any():
+            for layer in range(self.layers - 1, -1, -1):
+                self.search.state[TOTAL] += kernels.lay_tolls(self.graph, self.nodes, tolled, layer)
+        entering: NDArray[np.int32] = self.nodes.entering
+        is_goal = np.arange(entering.size) % network.node_count >= network.first_destination
+        return np.flatnonzero((entering & WANTED != 0) & (~is_goal | (entering >> BITS > 0)))
 
     def make_room(self, status: int) -> None:
         """Make room for what a search ended for; refuse it if there is none."""
@@ -95,12 +124,35 @@ class _PricedWork:
             self._check_memory(self.layers + more)
             added = more * self.network.node_count
             self.nodes = PricedNodes(*(longer(array, added) for array in self.nodes))
-            shut_doors(self.network, self.nodes.flow, self.layers)
             self.layers += more
+            self._open_layers(self.layers - more)
+
+    def _open_layers(self, first: int) -> None:
+        """Let paths end at the destinations of all layers from the first one on, but for doors that are shut."""
+        from trihex.optimum.kernels.flow_byte import START
+        from trihex.optimum.kernels.prices import BITS, NEVER, PASSED, WANTED
+
+        shut_doors(self.network, self.nodes.flow, first)
+        flow, entering, leaving = (array.reshape(self.layers, -1)[first:] for array in self.nodes)
+        goals = slice(self.network.first_destination, None)
+        entering[flow != 0] |= PASSED
+        entering[:, goals] = np.where(flow[:, goals] < self.network.capacity, WANTED, 0)
+        # Nobody leaves where robots may not go yet, or a shut door.
+        leaving[(flow >= START << 4) & (leaving == 0)] = -NEVER << BITS
 
     def _check_memory(self, layers: int, list_bytes: int = 0) -> None:
         need = layers * self.network.node_count * _BYTES_PER_NODE + list_bytes
         check_memory(self.network, self.cells, layers, need, self.limit)
+
+
+def _slim(layer: Any) -> Any:
+    """Return a layer with the columns of arcs that are used here, so that the arcs of a node lie closer together."""
+    from trihex.kernels.signatures import given
+    from trihex.optimum.kernels.residual import OFFSET, PLACE, REDUCED, Layer
+
+    columns = slice(OFFSET, max(OFFSET, PLACE, REDUCED) + 1)
+    tables = (np.ascontiguousarray(table[:, :, columns]) for table in (layer.out, layer.into))
+    return given(Layer, *tables, layer.first_goal, layer.capacity)
 
 
 def _make_search(start: NDArray[np.int64]) -> Any:
@@ -112,6 +164,7 @@ def _make_search(start: NDArray[np.int64]) -> Any:
     length = max(_LIST, start.size)
     state = np.zeros(kernels.STATE_SIZE, dtype=np.int64)
     state[kernels.LISTED], state[kernels.FREE] = start.size, NONE
+    state[kernels.AHEAD] = state[kernels.UNTIL] = min(_AHEAD, _RISES - 1)
     search = given(
         kernels.PricedSearch,
         start=start,
@@ -119,7 +172,8 @@ def _make_search(start: NDArray[np.int64]) -> Any:
         filed=np.empty((4 * length, 2), dtype=np.int64),
         heads=np.full(_RISES, NONE, dtype=np.int64),
         arrivals=np.empty(4 * length, dtype=np.int64),
-        stack=np.empty((length, 3), dtype=np.int64),
+        vain=np.empty(4 * length, dtype=np.int64),
+        stack=np.empty((length, 4), dtype=np.int64),
         seen=np.empty(length, dtype=np.int64),
         state=state,
     )

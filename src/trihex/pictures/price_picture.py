@@ -50,12 +50,12 @@ def picture_of_prices(
             cells.reshape(-1)[rows] = first + np.rint(values[rows] * ((_SHADES - 1) / most)).astype(np.int64)
             keys.append(Ramp(colours_of(shades), words, "0", f"{most * factor:.6g}"))
     marks: list[Mark] = list(make.destination_marks(scenario, scale))
-    door = prices.cell[prices.kind == "door"][prices.robots[prices.kind == "door"] == 0]
+    door = np.flatnonzero((prices.kind == "door") & (prices.price > 0))
     if door.size:
-        x, y = centres_of(area, door)
+        x, y = centres_of(area, prices.cell[door])
         marks += [Discs(x, y, 0.5, PAGE, 5.0), Discs(x, y, 0.42, _DOOR, 3.5)]
-        price = int(prices.price[(prices.kind == "door") & (prices.robots == 0)][0])
-        keys.append(Key("disc", _DOOR, f"best next door: saves {prices.told(price, speed)}"))
+        told = prices.told(int(prices.price[door[0]]), speed)
+        keys.append(Key("disc", _DOOR, f"best next door: saves {told}"))
     keys += [Key("cell", DESTINATION, "destination"), *barrier_keys(area)]
     colours = np.vstack([*ramps, colour_rows([FREE, BARRIER, DESTINATION])])
     bold = (*range(2 * _SHADES), 2 * _SHADES + 1, 2 * _SHADES + 2)

@@ -21,9 +21,8 @@ RULES = ("best", "paper", "queue", "aside", "lanes")
 _FEW, _SPARSE = 2_000_000, 32
 # Looking for lanes may take about as long as planning does: so many nodes, and one for every fourth robot-step.
 _VISITS = 50_000
-# Doors get prices where waits take at least such a part of the time, among so many destinations at most; and lanes
-# without prices are not looked for where that has brought the total time down to such a part.
-_WORTH, _MOST_DESTINATIONS, _CLEARLY = 0.01, 1000, 0.99
+# Doors get prices where robots lose more than such a part of the time, among so many destinations at most.
+_WORTH, _MOST_DESTINATIONS = 0.03, 1000
 # Of so many robots and more each looks for a way better than a free one in every fourth step only: half the time, and
 # totals 0.2 % larger; in small crowds it would be 1 to 2 %.
 _MANY, _PERIOD = 10_000, 4
@@ -79,7 +78,7 @@ def _run(n_scheme: NScheme, rule: str, keeps_actions: bool, progress: Progress |
     d_scheme = make_d_scheme(n_scheme)
     if rule != "best":
         return _simulated(d_scheme, rule, keeps_actions, progress)
-    best = first = _simulated(d_scheme, "aside", keeps_actions, progress)
+    best = _simulated(d_scheme, "aside", keeps_actions, progress)
     steps = best.crowd.arrival.sum() // scenario.duration_of_direction.min()
     has_lanes = steps <= _FEW and scenario.area.free_count * scenario.destinations.size <= _SPARSE * steps
     most_visits = _VISITS + int(steps) // 4
@@ -87,7 +86,6 @@ def _run(n_scheme: NScheme, rule: str, keeps_actions: bool, progress: Progress |
     if shared is not None:
         lanes, paid = shared
         best = _better(best, _simulated(lanes.d_scheme, "aside", keeps_actions, progress, best.total_time + paid))
-        has_lanes = best.total_time > _CLEARLY * first.total_time
     best = _better(best, run_greedy(n_scheme, keeps_actions, progress, best.total_time))
     if steps <= _FEW and not scenario.moves_by_steps:  # small crowds gain 1 to 2 %
         best = _better(best, _simulated(d_scheme, "queue", keeps_actions, progress, best.total_time))
@@ -100,9 +98,13 @@ def _run(n_scheme: NScheme, rule: str, keeps_actions: bool, progress: Progress |
 def _shared(d_scheme: DScheme, first: Recording, most_visits: int) -> tuple[Lanes, int] | None:
     """Return lanes within catchments, and what doors are said to cost; None where nobody had better go elsewhere."""
     scenario = d_scheme.n_scheme.scenario
-    if not scenario.is_stepwise or not 1 < scenario.destinations.size <= _MOST_DESTINATIONS:
+    if (
+        not scenario.is_stepwise
+        or scenario.waiting_cost == 0
+        or not 1 < scenario.destinations.size <= _MOST_DESTINATIONS
+    ):
         return None
-    if first.lost < _WORTH * first.total_time or doors_of(scenario).max() == 0:
+    if first.lost <= _WORTH * first.total_time or doors_of(scenario).max() == 0:
         return None
     return Catchments(d_scheme, first.crowd).make_lanes(most_visits)
 

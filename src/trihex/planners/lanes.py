@@ -132,6 +132,7 @@ def _linked(n_scheme: NScheme, catchment: NDArray[np.int32], demand: Any) -> tup
     """Return the streets, and the network with all lanes, as kernels know them."""
     from trihex.kernels.signatures import given
     from trihex.planners.kernels import residual
+    from trihex.planners.kernels.lanes import close_borders
 
     scenario = n_scheme.scenario
     layout, cost = scenario.area.layout, scenario.area.tessellation.cost_of_direction
@@ -158,6 +159,8 @@ def _linked(n_scheme: NScheme, catchment: NDArray[np.int32], demand: Any) -> tup
         seen=np.empty(count, dtype=np.int32),
         level=np.empty(count, dtype=np.int32),
     )
+    if demand.found.size > 1:
+        close_borders(streets, network)
     _link(demand, streets, network)
     return streets, network
 

@@ -116,7 +116,6 @@ class Reservations:
             return
         steps = max(steps, have + have // 2)
         rows, need = steps * max(1, self._reserved.per_tick), self._bytes_of(steps)
-        lets_in = steps * ends * self._has_doors
         if need > self._limit:
             raise TooLargeError(
                 f"reservations would take {need / GIB:.1f} GiB ({steps} steps of {size} cells), more than "
@@ -127,7 +126,7 @@ class Reservations:
             site=_grown(self._reserved.site, rows * size),
             vertex=_grown(self._reserved.vertex, steps * size * self._forbids),
             entries=_grown(self._reserved.entries, rows * ends),
-            let_in=_grown(self._reserved.let_in, lets_in),
+            let_in=_grown(self._reserved.let_in, steps * ends * self._has_doors),
         )
 
     @property
@@ -137,9 +136,8 @@ class Reservations:
 
     def _bytes_of(self, steps: int) -> int:
         """Return what tables for so many steps take."""
-        size = self.distance.size
+        size, ends = self.distance.size, self._reserved.ends
         rows = steps * max(1, self._reserved.per_tick)
-        ends = self._reserved.ends
         return int(rows * (size + 4 * ends) + steps * (size * self._forbids + 4 * ends * self._has_doors))
 
     def hold(self, start: int, start_time: int) -> None:

@@ -166,7 +166,7 @@ class _Pricing:
             self._price("door", cell, self.variations.saved_by_door)
             row, best = self.rows.pop(), self.rows[0]
             if not row[4]:
-                self.rows[0] = (*best[:4], False)
+                self.rows[0] = (*(best if best[1] >= 0 else row)[:4], False)
                 break
             self.rows[0] = row if row[2] > best[2] else best
         self._told(0, self.total)

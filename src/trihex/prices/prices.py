@@ -23,7 +23,7 @@ class Prices(Record):
 
     A *barrier*: the time saved if that cell alone were open. A *choke*, a free cell: the time lost if that cell alone
     were closed. A *door*: the time saved if that barrier were a destination as well; there is one row at most, that
-    of the barrier which saves most.
+    of the barrier which saves most, or might.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ class Prices(Record):
     @property
     def best_door(self) -> tuple[int, int] | None:
         """The cell (x, y) that saves most as a destination; None if none saves anything, or it is not asked for."""
-        rows = np.flatnonzero(self.kind == "door")
+        rows = np.flatnonzero((self.kind == "door") & (self.price > 0))
         if not rows.size:
             return None
         x, y = self.plan.scenario.area.cell_to_xy(self.cell[rows[0]])

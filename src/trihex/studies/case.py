@@ -13,10 +13,10 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from trihex.areas import GENERATORS, Area, Scenario, Tessellation
+from trihex.areas import GENERATORS, Area, Scenario, Tessellation, random_start_times, start_times_of
 from trihex.bounds import distance_bound, make_lower_bound
 from trihex.fields import NScheme, make_n_scheme
-from trihex.formats import Draft, read_draft, read_starts
+from trihex.formats import Draft, read_draft, read_start_times, read_starts
 from trihex.judging import Report, audit_plan, make_report
 from trihex.planners import make_plan, planner_from
 from trihex.plans import Plan
@@ -162,14 +162,21 @@ def _cells(area: Area, places: Any) -> Any:
 
 
 def _with_robots(case: Case, draft: Draft, empty: NScheme) -> NScheme:
-    wanted, scenario, seed = case["robots"], empty.scenario, case["seed"]
+    wanted, scenario, seed, told = case["robots"], empty.scenario, case["seed"], None
     if "cells" in wanted:
         robots = _cells(scenario.area, wanted["cells"])
     elif "file" in wanted:
-        robots = read_starts(Path(case["folder"]) / wanted["file"], scenario.area)
+        path = Path(case["folder"]) / wanted["file"]
+        robots, told = read_starts(path, scenario.area), read_start_times(path)
     else:
         robots = place_robots(empty, wanted["count"], wanted.get("placement", "uniform"), seed)
-    return replace(empty, scenario=scenario.with_robots(robots, seed))
+    scenario = scenario.with_robots(robots, seed)
+    if "start_times" in wanted:
+        times = random_start_times(scenario.area, scenario.robot_count, wanted["start_times"], seed)
+        scenario = replace(scenario, start_times=times)
+    elif told is not None:
+        scenario = replace(scenario, start_times=start_times_of(scenario.area, told))
+    return replace(empty, scenario=scenario)
 
 
 def try_planner(planner: Mapping[str, Any]) -> Report:

@@ -71,7 +71,7 @@ def _described(case: Case) -> Row:
         "area_options": canonical(area),
         "destinations": canonical(case["destinations"]),
         "robots": robots.get("count"),
-        "placement": robots.get("placement", "uniform") if "count" in robots else canonical(robots),
+        "placement": robots.get("placement", "uniform") if set(robots) <= {"count", "placement"} else canonical(robots),
         "seed": case["seed"],
         "tessellation": case["tessellation"]["name"],
         "neighbourhood": case["tessellation"].get("neighbourhood", "full"),

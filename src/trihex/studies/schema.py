@@ -9,7 +9,7 @@ from pydantic import AfterValidator, BeforeValidator, Field
 
 from trihex.areas import CLOCKS, CORNERS, COSTS, CROSSINGS, FOLLOWINGS, GENERATORS, NEIGHBOURHOODS, TESSELLATIONS
 from trihex.formats.areas.options import UNKNOWNS
-from trihex.formats.schema import Cells, Count, Number, Points, Table, Whole, choice
+from trihex.formats.schema import Cells, Count, Number, Points, Table, Whole, choice, distribution
 from trihex.studies.placing import DESTINATION_PLACES, ROBOT_PLACEMENTS
 
 _MOST_SEEDS = 10_000_000
@@ -127,6 +127,7 @@ class RobotsAxis(Table):
     cells: Cells | None = None
     file: Varied[str] | None = None
     placement: Varied[Annotated[str, choice("it", ROBOT_PLACEMENTS)]] | None = None
+    start_times: Varied[Annotated[str, AfterValidator(distribution)]] | None = None
 
 
 class RunAxis(Table):

@@ -18,49 +18,75 @@ _MOST_CELLS = 2**22  # of an area whose maps lie in the page itself: 8 bytes a c
 Progress = Callable[[int, int], None]
 
 
+class Values(NamedTuple):
+    """What a map tells of each cell, of barriers, too; 0 where there is nothing to tell."""
+
+    of_cell: NDArray[Any]
+    unit: str
+    #: Whether they are seconds, so that many of them are told as minutes.
+    are_seconds: bool = False
+
+
 class Layer(NamedTuple):
-    """A map: what it is called, what it tells, in which unit, and what makes it."""
+    """A map: what it is called, what it tells, and what makes it."""
 
     label: str
     hint: str
-    #: Of a value, where cells have no size and where they are in metres; ``{step}`` is "step" or "tick".
-    unit: str
-    unit_in_metres: str
-    #: A value for each cell, of barriers, too; 0 where there is nothing to tell.
-    make: Callable[[Any, Progress], NDArray[Any]]
+    make: Callable[[Any, Progress], Values]
     #: Kernels that it takes, by keys of `trihex.kernels.needs.KERNELS_OF`.
     uses: tuple[str, ...]
     #: Whether only the best plan has it, and it takes a while, so that pages without a server do not.
     is_of_optimum: bool = False
+    #: What is said of a cell, {} in place of the amount; "": amount and unit.
+    sentence: str = ""
 
 
-def _time_lost(motion: Motion, _: Progress) -> NDArray[Any]:
+def _time_lost(motion: Motion, _: Progress) -> Values:
     area = motion.scenario.area
-    return make_waiting_map(motion) * (1.0 if area.frame is None else seconds_per_step(area))
+    if area.frame is None:
+        return Values(make_waiting_map(motion), f"{motion.scenario.step_word}s lost")
+    return Values(make_waiting_map(motion) * seconds_per_step(area), "s lost")
 
 
-def _crowding(motion: Motion, _: Progress) -> NDArray[Any]:
-    return make_density_map(motion)
+def _crowding(motion: Motion, _: Progress) -> Values:
+    unit = "robots" if motion.scenario.area.frame is None else "robots a square metre"
+    return Values(make_density_map(motion), unit)
 
 
-def _walls(plan: Plan, progress: Progress) -> NDArray[Any]:
-    return np.maximum(0, make_prices(plan, kinds=("barrier",), progress=progress).price_of_cell("barrier"))
+def _prices(kind: str, words: str) -> Callable[[Plan, Progress], Values]:
+    """Return what makes the map of the prices of a kind."""
 
+    def make(plan: Plan, progress: Progress) -> Values:
+        prices = make_prices(plan, kinds=kind, progress=progress)
+        values, seconds = np.maximum(0, prices.price_of_cell(kind)), prices.seconds_per_unit()
+        if seconds is None:
+            return Values(values, f"time units {words}")
+        return Values(values * seconds, f"s {words}", are_seconds=True)
 
-def _chokes(plan: Plan, progress: Progress) -> NDArray[Any]:
-    return np.maximum(0, make_prices(plan, kinds=("choke",), progress=progress).price_of_cell("choke"))
+    return make
 
 
 _ROWS, _OPTIMA = ("waypoints", "ticks"), ("optimal", "prices")
-_SAVED, _LOST = "time units saved if open", "time units lost if closed"
+_SAVED, _DOOR = "opening this wall saves {} for all together", "a destination here saves {} for all together"
+_LOST = "closing this cell costs {} for all together"
 #: All of them: one more is a line.
 LAYERS = {
-    "waiting": Layer(
-        "Time lost", "How long robots stood here, all together.", "{step}s lost", "s lost", _time_lost, _ROWS
+    "waiting": Layer("Time lost", "How long robots stood here, all together.", _time_lost, _ROWS),
+    "density": Layer("Crowding", "Robots here, in the mean.", _crowding, _ROWS),
+    "walls": Layer(
+        "Price of walls", "What each wall costs all robots.", _prices("barrier", "saved if open"), _OPTIMA, True, _SAVED
     ),
-    "density": Layer("Crowding", "Robots here, in the mean.", "robots", "robots a square metre", _crowding, _ROWS),
-    "walls": Layer("Price of walls", "What each wall costs all robots.", _SAVED, _SAVED, _walls, _OPTIMA, True),
-    "chokes": Layer("Worth of passages", "What narrow places are worth.", _LOST, _LOST, _chokes, _OPTIMA, True),
+    "chokes": Layer(
+        "Worth of passages", "What narrow places are worth.", _prices("choke", "lost if closed"), _OPTIMA, True, _LOST
+    ),
+    "door": Layer(
+        "Best next door",
+        "The wall that had better be an exit.",
+        _prices("door", "saved by a door"),
+        _OPTIMA,
+        True,
+        _DOOR,
+    ),
 }
 
 
@@ -75,10 +101,10 @@ def layer_choices(*, is_alone: bool = False) -> dict[str, dict[str, Any]]:
 
 def make_layer(name: str, motion: Motion, progress: Progress = lambda done, total: None) -> Bundle:
     """Return the layer called `name` as the answer to a page."""
-    layer, scenario = LAYERS[name], motion.scenario
-    unit = layer.unit if scenario.area.frame is None else layer.unit_in_metres
-    values = np.asarray(layer.make(motion, progress), dtype=np.float64).reshape(-1)
-    return Bundle({"unit": unit.format(step=scenario.step_word)}, {"values": values})
+    layer = LAYERS[name]
+    values = layer.make(motion, progress)
+    header = {"unit": values.unit, "sentence": layer.sentence, "are_seconds": values.are_seconds}
+    return Bundle(header, {"values": np.asarray(values.of_cell, dtype=np.float64).reshape(-1)})
 
 
 def with_layers(bundle: Bundle, motion: Motion) -> Bundle:

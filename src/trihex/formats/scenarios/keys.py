@@ -17,11 +17,10 @@ from trihex.areas import (
     FOLLOWINGS,
     NEIGHBOURHOODS,
     TESSELLATIONS,
-    check_distribution,
 )
-from trihex.errors import ScenarioError, is_whole
+from trihex.errors import is_whole
 from trihex.formats.areas.options import UNKNOWNS
-from trihex.formats.schema import LARGEST, Cells, Flow, Number, Points, Table, Whole, choice
+from trihex.formats.schema import LARGEST, Cells, Flow, Number, Points, Table, Whole, choice, distribution
 
 
 class FrameTable(Table):
@@ -84,11 +83,7 @@ class DoorTable(Table):
 def _start_times(value: object) -> object:
     """Return start times, or a distribution of them."""
     if isinstance(value, str):
-        try:
-            check_distribution(value)
-        except ScenarioError as error:
-            raise ValueError(str(error).removeprefix("start times ")) from None
-        return value
+        return distribution(value)
     if isinstance(value, list) and all(is_whole(one) and 0 <= one <= LARGEST for one in value):
         return np.array(value, dtype=np.int64)
     raise ValueError(f"must be a list of whole numbers of steps, or a distribution in quotes, not {value!r:.60}")

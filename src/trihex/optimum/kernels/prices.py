@@ -13,9 +13,12 @@ from trihex.kernels.signatures import HELPER, IN_I64, OUT_I32, OUT_I64, OUT_U8, 
 from trihex.optimum.kernels.residual import LOG, Layer
 
 ENTERING, LEAVING = 0, 1
-# The word of a side: its price, less the rise so far if it rises, shifted by `BITS`; whether it rises; and whether the
-# search under way has seen it.
-RISES, SEEN, BITS = 1, 2, 2
+# The word of a side: its price, less the rise so far if it rises, shifted by `BITS`; whether it rises; whether a walk
+# has seen it since prices last rose; and of the side that is entered, whether it is *wanted*, that is, a path may end
+# there, and whether the node carries flow, unless it is a destination.
+RISES, SEEN, WANTED, PASSED, BITS = 1, 2, 4, 8, 4
+# More than any way costs.
+NEVER = 1 << 26
 
 # Entries of the state.
 SERVED = 0  # robots with a path
@@ -25,8 +28,13 @@ LISTED = 3  # entries of the list of sides that rise
 NEXT = 4  # entry of the list that is looked at next
 FILED = 5  # entries that have been filed
 FREE = 6  # first of the filed entries that are free again, or NONE
-ARRIVALS = 7  # arcs to destinations that have become tight
-STATE_SIZE = 8
+ARRIVALS = 7  # arcs to wanted sides that have become tight
+MARKED = 8  # sides that walks have seen since prices last rose
+VAIN = 9  # arrivals for which a walk was in vain
+BEFORE = 10  # robots that had a path before these walks
+UNTIL = 11  # the rise after which what rises is found anew, as nothing has been filed for later ones
+AHEAD = 12  # for how many units to come sides are filed: few if what rises has to be found anew soon in any case
+STATE_SIZE = 13
 
 
 class PricedNodes(NamedTuple):
@@ -44,9 +52,10 @@ class PricedSearch(NamedTuple):
     sides: OUT_I64  # list of sides that have begun to rise
     filed: LOG  # what will be tight later, each with the next one of that time, or NONE
     heads: OUT_I64  # first of those filed for each rise, modulo its length, or NONE
-    arrivals: OUT_I64  # arcs to destinations, index * `ARCS` + place
+    arrivals: OUT_I64  # arcs to wanted sides, index * `ARCS` + place
+    vain: OUT_I64  # those for which a walk was in vain; as long as the list of all
     stack: LOG  # the walk in depth: side, arc that is tried next, arc by which it leads on
-    seen: OUT_I64  # what it has seen; as long as the stack
+    seen: OUT_I64  # what walks have seen; as long as the stack
     state: OUT_I64  # with the entries above
 
 

@@ -14,13 +14,16 @@ from trihex.optimum.kernels.prices import (
     FREE,
     LEAVING,
     LISTED,
+    PASSED,
     RISE,
     RISES,
+    UNTIL,
+    WANTED,
     price_of,
     put_word,
     word_of,
 )
-from trihex.optimum.kernels.residual import NONE, OFFSET, OTHER, PLACE, REDUCED
+from trihex.optimum.kernels.residual import NONE, OFFSET, OWN, PLACE, REDUCED
 
 
 @HELPER
@@ -29,48 +32,45 @@ def begin_to_rise(side, nodes, search):
     state = search.state
     word = word_of(side, nodes)
     if not word & RISES:
-        put_word(side, (((word >> BITS) - state[RISE]) << BITS) | RISES, nodes)
+        put_word(side, (((word >> BITS) - state[RISE]) << BITS) | (word & PASSED) | RISES, nodes)
         search.sides[state[LISTED]] = side
         state[LISTED] += 1
 
 
 @HELPER
-def file_for(what, rise, search):
-    """File a side, or an arc to a destination as -1 less its number, for a rise to come; early if it is far off."""
+def _file_for(what, rise, search):
+    """File a side, or an arc to a wanted side as -1 less its number, for a rise to come."""
     state, filed = search.state, search.filed
+    if rise > state[UNTIL]:
+        return
     entry = state[FREE]
     if entry == NONE:
         entry = state[FILED]
         state[FILED] += 1
     else:
         state[FREE] = filed[entry, 1]
-    which = min(rise, state[RISE] + len(search.heads) - 1) % len(search.heads)
+    which = rise % len(search.heads)
     filed[entry, 0], filed[entry, 1] = what, search.heads[which]
     search.heads[which] = entry
 
 
 @HELPER
-def _reach(side, cost, price, nodes, search):
-    """Let a side rise, at the end of an arc from one that rises, when that is tight."""
-    word, rise = word_of(side, nodes), search.state[RISE]
+def reach(side, via, cost, price, nodes, search):
+    """Let a side rise, at the end of an arc from one that rises, when that is tight; if it is wanted, note the arc."""
+    word, state = word_of(side, nodes), search.state
     if word & RISES:
         return
-    slack = cost + price_of(word, rise) - price
-    if slack <= 0:
+    slack = cost + price_of(word, state[RISE]) - price
+    if word & WANTED:
+        if slack <= 0:
+            search.arrivals[state[ARRIVALS]] = via
+            state[ARRIVALS] += 1
+        else:
+            _file_for(-1 - via, state[RISE] + slack, search)
+    elif slack <= 0:
         begin_to_rise(side, nodes, search)
     else:
-        file_for(side, rise + slack, search)
-
-
-@HELPER
-def expect_arrival(at, place, slack, search):
-    """Note an arc to an open destination, now or when it is tight."""
-    state = search.state
-    if slack <= 0:
-        search.arrivals[state[ARRIVALS]] = at * ARCS + place
-        state[ARRIVALS] += 1
-    else:
-        file_for(-1 - (at * ARCS + place), state[RISE] + slack, search)
+        _file_for(side, state[RISE] + slack, search)
 
 
 @HELPER
@@ -80,38 +80,36 @@ def _enter(at, node, price, graph, nodes, search):
     if node < graph.first_goal:
         j = arc_in(nodes.flow[at])
         if j != START - 1:
-            _reach((at + into[node, j, OFFSET]) * 2 + LEAVING, -into[node, j, REDUCED], price, nodes, search)
+            before = at + into[node, j, OFFSET]
+            reach(before * 2 + LEAVING, before * ARCS + OWN, -into[node, j, REDUCED], price, nodes, search)
         return
     for j in range(into.shape[1]):
         before = at + into[node, j, OFFSET]
         if before == at:
             break
         if arc_out(nodes.flow[before]) == into[node, j, PLACE]:
-            _reach(before * 2 + LEAVING, -into[node, j, REDUCED], price, nodes, search)
+            reach(before * 2 + LEAVING, before * ARCS + OWN, -into[node, j, REDUCED], price, nodes, search)
 
 
 @HELPER
 def reach_from(side, graph, nodes, search):
     """Let rise, now or later, what can be reached from a side."""
     out, at = graph.out, side >> 1
-    node, flow = at % len(out), nodes.flow[at]
-    price = price_of(word_of(side, nodes), search.state[RISE])
-    if side & 1 == ENTERING and (flow != 0 or node >= graph.first_goal):
+    node, word, taken = at % len(out), word_of(side, nodes), NONE
+    price = price_of(word, search.state[RISE])
+    if word & PASSED or node >= graph.first_goal:
         _enter(at, node, price, graph, nodes, search)
         return
-    if side & LEAVING and arc_in(flow) != START - 1:
-        _reach(at * 2 + ENTERING, 0, price, nodes, search)
-    taken = arc_out(flow)
+    if side & LEAVING:
+        taken = arc_out(nodes.flow[at])
+        if arc_in(nodes.flow[at]) != START - 1:
+            reach(at * 2 + ENTERING, at * ARCS + OWN, 0, price, nodes, search)
     for k in range(out.shape[1]):
         head = at + out[node, k, OFFSET]
         if head == at:
             break
-        if k == taken:
-            continue
-        if out[node, k, OTHER] >= graph.first_goal and nodes.flow[head] < graph.capacity:
-            expect_arrival(at, k, out[node, k, REDUCED] - price, search)
-        else:
-            _reach(head * 2 + ENTERING, out[node, k, REDUCED], price, nodes, search)
+        if k != taken:
+            reach(head * 2 + ENTERING, at * ARCS + k, out[node, k, REDUCED], price, nodes, search)
 
 
 @HELPER

@@ -1,17 +1,21 @@
-"""Robots get their paths: prices rise where robots without path are, until one of them can go to a destination.
+"""Robots get their paths: prices rise where robots without path are, until one of them can go where it is wanted.
 
-The Hungarian method on layers of steps, all robots at once. From an arc to an open destination that has become tight a
-walk goes back along tight arcs for a robot without path, which then goes there. If there is none, some of what rises
-could only be reached by robots that have their paths by now, and what rises is found anew.
+The Hungarian method on layers of steps, all robots at once. From an arc to a wanted side that has become tight a walk
+goes back along tight arcs for a robot without path, which then goes there. What such walks saw in vain stays seen. When
+all tight arcs have been tried and one of them was in vain, some of what rises could only be reached by robots that have
+their paths by now, and what rises is found anew.
 """
 
+import numpy as np
 from numba import types
 
 from trihex.kernels.signatures import APART, HELPER, kernel
-from trihex.optimum.kernels.flow_byte import START, arc_out, with_arc_in, with_arc_out
+from trihex.optimum.kernels.flow_byte import START, arc_out
 from trihex.optimum.kernels.prices import (
+    AHEAD,
     ARCS,
     ARRIVALS,
+    BEFORE,
     BITS,
     ENTERING,
     FILED,
@@ -19,19 +23,23 @@ from trihex.optimum.kernels.prices import (
     GRAPH,
     LEAVING,
     LISTED,
+    MARKED,
     NEXT,
     NODES,
+    PASSED,
     RISE,
     RISES,
     SEARCH,
-    SEEN,
     SERVED,
     TOTAL,
+    UNTIL,
+    VAIN,
+    WANTED,
     price_of,
     put_word,
     word_of,
 )
-from trihex.optimum.kernels.raising import begin_to_rise, expect_arrival, raise_prices, reach_from
+from trihex.optimum.kernels.raising import begin_to_rise, raise_prices, reach, reach_from
 from trihex.optimum.kernels.residual import (
     BUDGET_SPENT,
     DONE,
@@ -39,119 +47,43 @@ from trihex.optimum.kernels.residual import (
     LIST_FULL,
     NONE,
     OFFSET,
-    OTHER,
     OWN,
-    PLACE,
     REDUCED,
     SPARE_ROWS,
 )
-
-# Columns of the stack.
-SIDE, TRIED, VIA = range(3)
+from trihex.optimum.kernels.walking import SIDE, arrive, forget, lay, walk_back
 
 
 @HELPER
-def _tail(side, i, graph, nodes):
-    """Return the side at the tail of the i-th residual arc to a side, the place of the arc, and its cost.
-
-    The tail is -1 if there is no such arc, and -2 if there are no more.
-    """
-    into, at = graph.into, side >> 1
-    node = at % len(graph.out)
-    flow = nodes.flow[at]
-    if side & LEAVING:  # from where its flow goes, back to here
-        k = arc_out(flow)
-        if i > 0 or k < 0:
-            return -2, OWN, 0
-        head = at + graph.out[node, k, OFFSET]
-        if graph.out[node, k, OTHER] >= graph.first_goal and nodes.flow[head] < graph.capacity:
-            return -2, OWN, 0
-        return head * 2 + ENTERING, OWN, -graph.out[node, k, REDUCED]
-    if i == into.shape[1]:
-        if flow == 0 or node >= graph.first_goal:
-            return -2, OWN, 0
-        return at * 2 + LEAVING, OWN, 0
-    if i > into.shape[1]:
-        return -2, OWN, 0
-    before, k = at + into[node, i, OFFSET], into[node, i, PLACE]
-    if before == at or arc_out(nodes.flow[before]) == k:
-        return -1, OWN, 0
-    return before * 2 + (LEAVING if nodes.flow[before] != 0 else ENTERING), k, into[node, i, REDUCED]
+def _try_again(nodes, search):
+    """Forget what walks have seen, and list again the arrivals for which they were in vain."""
+    state = search.state
+    forget(0, nodes, search)
+    for i in range(state[VAIN]):
+        search.arrivals[i] = search.vain[i]
+    state[ARRIVALS], state[VAIN], state[BEFORE] = state[VAIN], 0, state[SERVED]
 
 
 @HELPER
-def _see(side, via, depth, nodes, search, seen):
-    """Go back to a side; return how many have been seen."""
-    put_word(side, word_of(side, nodes) | SEEN, nodes)
-    search.seen[seen] = side
-    search.stack[depth, SIDE], search.stack[depth, TRIED], search.stack[depth, VIA] = side, 0, via
-    return seen + 1
-
-
-@HELPER
-def _walk_back(arrival, graph, nodes, search):
-    """Walk back from an arc to a destination for a robot without path; return how deep it is, and what was seen.
-
-    The depth is -1 if there is none, -2 if a list is full.
-    """
-    stack, rise, flow = search.stack, search.state[RISE], nodes.flow
-    at = arrival // ARCS
-    seen = _see(at * 2 + (LEAVING if flow[at] != 0 else ENTERING), arrival % ARCS, 0, nodes, search, 0)
-    depth = 0
-    while depth >= 0:
-        if seen == len(search.seen):
-            return -2, seen
-        side = stack[depth, SIDE]
-        if flow[side >> 1] == START << 4 and side & LEAVING:  # starts here and goes nowhere yet
-            return depth, seen
-        tail, via, cost = _tail(side, stack[depth, TRIED], graph, nodes)
-        stack[depth, TRIED] += 1
-        if tail == -2:
-            depth -= 1
-        elif tail >= 0:
-            word = word_of(tail, nodes)
-            if word & (RISES | SEEN) == RISES:
-                if price_of(word, rise) == cost + price_of(word_of(side, nodes), rise):
-                    depth += 1
-                    seen = _see(tail, via, depth, nodes, search, seen)
-    return depth, seen
-
-
-@HELPER
-def _lay(depth, graph, nodes, search):
-    """Lay the path that was walked: a robot goes along it, and others on where it turned them back."""
-    stack, flow = search.stack, nodes.flow
-    while depth >= 0:
-        side, via = stack[depth, SIDE], stack[depth, VIA]
-        at = side >> 1
-        node = at % len(graph.out)
-        depth -= 1
-        if via == OWN:
-            if side & LEAVING:  # nobody passes there any more
-                flow[at] = 0
-            continue
-        head = at + graph.out[node, via, OFFSET]
-        flow[at] = with_arc_out(flow[at], via)
-        if depth < 0:
-            flow[head] += 1
-        elif graph.out[node, via, OTHER] < graph.first_goal:
-            if flow[head] == 0:
-                nodes.leaving[head] = nodes.entering[head]
-                search.sides[search.state[LISTED]] = head * 2 + LEAVING
-                search.state[LISTED] += 1
-            flow[head] = with_arc_in(flow[head], graph.out[node, via, PLACE])
+def settle(nodes, search):
+    """Let nothing rise any more."""
+    state = search.state
+    forget(0, nodes, search)
+    for i in range(state[LISTED]):
+        side = search.sides[i]
+        word = word_of(side, nodes)
+        put_word(side, (price_of(word, state[RISE]) << BITS) | (word & (WANTED | PASSED)), nodes)
+    search.heads[:] = NONE
+    state[FREE] = NONE
+    state[NEXT] = state[LISTED] = state[FILED] = state[ARRIVALS] = state[VAIN] = 0
 
 
 @APART
 def _begin_anew(nodes, search):
     """Let rise no longer what no robot without path may come to any more: all but where these robots are."""
     state = search.state
-    for i in range(state[LISTED]):
-        side = search.sides[i]
-        put_word(side, price_of(word_of(side, nodes), state[RISE]) << BITS, nodes)
-    search.heads[:] = NONE
-    state[FREE] = NONE
-    state[NEXT] = state[LISTED] = state[FILED] = state[ARRIVALS] = 0
+    settle(nodes, search)
+    state[BEFORE], state[UNTIL] = state[SERVED], state[RISE] + state[AHEAD]
     for start in search.start:
         if nodes.flow[start] == START << 4:
             begin_to_rise(start * 2 + LEAVING, nodes, search)
@@ -159,33 +91,31 @@ def _begin_anew(nodes, search):
 
 @HELPER
 def _serve(arrival, graph, nodes, search):
-    """Let a robot arrive by a tight arc, if one can and the arc is still to be had; return how much was seen."""
+    """Let a robot go to a wanted side by an arc, if one can and the arc is still tight; False if a list is full."""
     state, flow = search.state, nodes.flow
     at, place = arrival // ARCS, arrival % ARCS
-    node = at % len(graph.out)
     side = at * 2 + (LEAVING if flow[at] != 0 else ENTERING)
-    word = word_of(side, nodes)
-    if not word & RISES or arc_out(flow[at]) == place:
-        return 0
-    head = at + graph.out[node, place, OFFSET]
-    if flow[head] >= graph.capacity:  # others arrive there
-        begin_to_rise(head * 2 + ENTERING, nodes, search)
-        return 0
-    slack = graph.out[node, place, REDUCED] - price_of(word, state[RISE])
-    if slack > 0:
-        expect_arrival(at, place, slack, search)
-        return 0
-    depth, seen = _walk_back(arrival, graph, nodes, search)
-    for i in range(seen):
-        put_word(search.seen[i], word_of(search.seen[i], nodes) & ~SEEN, nodes)
+    if not word_of(side, nodes) & RISES or arc_out(flow[at]) == place:
+        return True
+    head, cost = at, np.int64(0)
+    if place != OWN:
+        node = at % len(graph.out)
+        head, cost = at + graph.out[node, place, OFFSET], np.int64(graph.out[node, place, REDUCED])
+    price, asked = price_of(word_of(side, nodes), state[RISE]), price_of(nodes.entering[head], state[RISE])
+    if not nodes.entering[head] & WANTED or price < cost + asked:  # somebody else has got there
+        reach(head * 2 + ENTERING, arrival, cost, price, nodes, search)
+        return True
+    depth = walk_back(side, place, RISES, graph, nodes, search)
     if depth == -1:
-        _begin_anew(nodes, search)
+        search.vain[state[VAIN]] = arrival
+        state[VAIN] += 1
     if depth < 0:
-        return -1 if depth == -2 else seen
-    state[TOTAL] += price_of(word_of(search.stack[depth, SIDE], nodes), state[RISE])
-    _lay(depth, graph, nodes, search)
+        return depth == -1
+    state[TOTAL] += price_of(word_of(search.stack[depth, SIDE], nodes), state[RISE]) - asked
+    lay(depth, 0, graph, nodes, search)
+    arrive(head, graph, nodes)
     state[SERVED] += 1
-    return seen
+    return True
 
 
 @HELPER
@@ -193,7 +123,7 @@ def _is_full(graph, search):
     """Tell whether a list may have no room for what comes next."""
     state = search.state
     more = graph.out.shape[1] + graph.into.shape[1]
-    most = max(state[LISTED], state[ARRIVALS], state[FILED])
+    most = max(state[LISTED], state[ARRIVALS] + state[VAIN], state[FILED])
     return most + more + len(search.seen) > len(search.sides)
 
 
@@ -213,14 +143,22 @@ def serve_at_prices(graph, nodes, search, budget):
                 return LAYERS_FULL
             state[NEXT] += 1
             reach_from(side, graph, nodes, search)
-            continue
-        if state[ARRIVALS] == 0:
+        elif state[ARRIVALS] > 0:
+            state[ARRIVALS] -= 1
+            seen = state[MARKED]
+            if not _serve(search.arrivals[state[ARRIVALS]], graph, nodes, search):
+                state[ARRIVALS] += 1
+                return LIST_FULL
+            budget -= state[MARKED] - seen
+        elif state[VAIN] and state[SERVED] > state[BEFORE]:
+            _try_again(nodes, search)
+        elif state[VAIN]:
+            state[AHEAD] = max(state[AHEAD] // 2, 1)
+            _begin_anew(nodes, search)
+        elif state[RISE] == state[UNTIL]:
+            state[AHEAD] = min(state[AHEAD] * 4, len(search.heads) - 1)
+            _begin_anew(nodes, search)
+        else:
+            _try_again(nodes, search)
             raise_prices(nodes, search)
-            continue
-        state[ARRIVALS] -= 1
-        seen = _serve(search.arrivals[state[ARRIVALS]], graph, nodes, search)
-        if seen < 0:
-            state[ARRIVALS] += 1
-            return LIST_FULL
-        budget -= seen
     return BUDGET_SPENT

@@ -169,6 +169,24 @@ def _expect(catchment, demand, distance):
             demand.due[i] = max(demand.due[i], demand.due[i + lanes] + demand.price)
 
 
+@kernel(types.void(STREETS, NETWORK))
+def close_borders(streets, network):
+    """Let no lane pass a lattice vertex that robots of two catchments can pass.
+
+    What a search of one learns about it would be wrong for the other.
+    """
+    size = len(streets.moves)
+    for vertex in range(size if len(network.node) > size else 0):
+        own = NOWHERE
+        for i in range(len(streets.ring)):
+            site = vertex + streets.ring[i]
+            if not 0 <= site < size or not streets.moves[site] & streets.via[i]:
+                continue
+            if own >= 0 and streets.catchment[site] != own:
+                network.node[size + vertex, VALUE] = NOBODY + 1
+            own = np.int64(streets.catchment[site])
+
+
 @HELPER
 def _follow(robot, state, demand):
     """Go on to the catchment of a robot."""

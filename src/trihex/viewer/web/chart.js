@@ -54,6 +54,8 @@ export class Chart {
       this.app.clock.seek(((event.clientX - box.left) / box.width) * steps);
     });
     this.cursors.push(cursor);
-    return h("figure", {}, h("figcaption", {}, h("span", {}, label), h("span", {}, `max ${number(most)}`)), svg);
+    const hint = `${label}, step by step; the line across is the step that is shown. Click to go to one.`;
+    const head = h("figcaption", {}, h("span", {}, label), h("span", {}, `max ${number(most)}`));
+    return h("figure", { title: hint }, head, svg);
   }
 }

@@ -1,6 +1,6 @@
 // Layers: maps of the plans over their cells, one at a time: where time is lost, where robots crowd.
 
-import { h, number } from "./words.js";
+import { durationOf, h, number } from "./words.js";
 import { labelled } from "./controls.js";
 import { complaintOf } from "./hosts.js";
 
@@ -9,7 +9,7 @@ const NONE_OPTIMAL = "Prices are those of the best plan: plan, or compare, with 
 const greatestAmong = (values) => values.reduce((most, value) => (value > most ? value : most), 0);
 
 // A map as an answer tells it.
-export const layerOf = ({ unit }, values) => ({ unit, values, most: greatestAmong(values) });
+export const layerOf = (told, values) => ({ ...told, values, most: greatestAmong(values) });
 
 // A value as people read it.
 export const amount = (value) => (value >= 100 ? number(value) : String(Number(value.toPrecision(2))));
@@ -37,7 +37,9 @@ export class Layers {
   // What a map says of a cell, in words; "" if nothing.
   wordsOf(run, cell) {
     const layer = this.of(run), value = layer?.values[cell];
-    return value > 0 ? `${amount(value)} ${layer.unit}` : "";
+    if (!(value > 0)) return "";
+    if (!layer.sentence) return `${amount(value)} ${layer.unit}`;
+    return layer.sentence.replace("{}", layer.are_seconds ? durationOf(value) : `${amount(value)} time units`);
   }
 
   // Only the best plan has prices, and they take long.

@@ -3,7 +3,7 @@
 import { h, number, percent, secondsOf, title } from "./words.js";
 import { check, note, row, section } from "./controls.js";
 import { Chart } from "./chart.js";
-import { OF_BOUNDS, OF_LIVE, OF_PLAN, UNITS } from "./sentences.js";
+import { OF_BOUNDS, OF_LIVE, OF_PLAN, OF_SETS, UNITS } from "./sentences.js";
 
 const SO_FAR = "The time that robots have used until this step, and the least that the total can still become: that " +
   "time, and the shortest way of each robot from where it is.";
@@ -69,7 +69,7 @@ export class Results {
     this.table = h("div", { class: "results" });
     this.sofar = h("div", { class: "sofar", title: SO_FAR });
     this.chart = new Chart(app);
-    this.sets = h("div", { class: "sets", role: "group", "aria-label": "Robots by set" });
+    this.sets = h("div", { class: "sets", role: "group", "aria-label": "Robots by set", title: OF_SETS });
     const alone = app.canEdit ? null : note(ALONE);
     this.paths = h("input", { type: "checkbox", onchange: () => this.#showPaths() });
     this.pathsField = check(this.paths, "All paths");
@@ -104,6 +104,7 @@ export class Results {
     this.table.replaceChildren(...[
       h("table", {}, h("thead", {}, h("tr", {}, h("td"), heads)), h("tbody", {}, lines)),
       note(unitsOf(runs[0])), this.verdict ? h("p", { class: "verdict" }, this.verdict) : null,
+      this.#why ? note(this.#why) : null,
       conflicts.length ? h("ul", { class: "conflicts" }, conflicts) : null,
     ].filter(Boolean));
     this.chart.draw(runs.map(({ playback }) => playback.curves));
@@ -127,6 +128,18 @@ export class Results {
     const first = title(nameIn(one));
     if (Math.abs(share) < 5e-5) return `${first} and ${nameIn(two)} take the same total time.`;
     return `${first} takes ${percent(Math.abs(share))} ${share > 0 ? "more" : "less"} time than ${nameIn(two)}.`;
+  }
+
+  // What the difference between two plans is made of.
+  get #why() {
+    const runs = this.#runs, [one, two] = runs.map((run) => run.summary);
+    if (runs.length < 2 || one.total_time === two.total_time || one.tessellation !== two.tessellation) return "";
+    const more = (what, key) => {
+      const by = one[key] - two[key];
+      return by ? `${what} ${number(Math.abs(by))} ${by > 0 ? "more" : "less"}` : `${what} as much`;
+    };
+    const parts = `${more("wait", "total_waiting")} and ${more("move", "total_distance")}`;
+    return `Its robots ${parts}, in time units all together; the map of time lost shows where.`;
   }
 
   #showLive(live) {

@@ -18,6 +18,8 @@ export const OF_PLAN = {
   "Planned in": "Seconds that the planner took on this computer.",
 };
 
+export const OF_SETS = "How many robots move and wait in the step that begins now, and how many have arrived.";
+
 // How a lower bound is known, by its name.
 export const OF_BOUNDS = {
   distance: "distance: as if nobody were in the way of anybody",
@@ -51,6 +53,8 @@ export const OF_RULES = {
   costs: "Paper: 10 over an edge, 14 through a corner. Euclidean: true distances, 1000 for an edge.",
   corners: "Allow: robots pass any corner. No-squeeze: not between two walls. No-cut: past no corner of a wall.",
   crossing: "Forbid: no two robots pass the same corner in one step. Allow: they may.",
+  clock: "Steps: every move lasts one step. Costs: a move lasts as long as it costs, in ticks; a wait lasts a tick.",
+  following: "Allow: a robot may move up into a cell that is being left. Forbid: nobody enters it until it is empty.",
   waiting_cost: "What a robot pays for each step in which it stands still; by default as much as a move over an edge.",
   destination_capacity: "How many robots may enter a destination in one step; by default any number.",
 };

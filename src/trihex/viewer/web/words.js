@@ -20,6 +20,8 @@ export const number = (value) =>
 export const percent = (value) =>
   (value === null || value === undefined ? "–" : `${(100 * value).toFixed(value < 0.1 ? 2 : 1)} %`);
 export const secondsOf = (value) => (value < 100 ? `${value.toFixed(1)} s` : `${number(value)} s`);
+export const durationOf = (value) => (value < 60 ? `${Number(value.toPrecision(3))} s`
+  : `${Math.floor(Math.round(value) / 60)} min ${Math.round(value) % 60} s`);
 export const plural = (count, one) => `${number(count)} ${one}${count === 1 ? "" : "s"}`;
 export const title = (word) => word[0].toUpperCase() + word.slice(1);
 
