@@ -104,10 +104,12 @@ destinations.0: must have at most 2 items, not [1, 2, 3]
 destinations.1.0: must be a whole number, not 'a'
 rules.waiting_cost: must be greater than or equal to 0, not -3
 rules.crossing: must be one of forbid, allow, not 'forbit'; did you mean 'forbid'?
-rules.destination_capacity: must be greater than or equal to 1, not 0
+rules.destination_capacity: must be a number of robots above 0: a step, such as 2, 0.5 or 1/3, or in metres a second, \
+such as 1.6/s; not 0
 robots.random: must be a whole number, not 1.5
 planner: must be a table, not 'fcost'
-colour: there is no such key; keys are area, destinations, destinations_in_metres, rules, robots, planner, outputs
+colour: there is no such key; keys are area, destinations, destinations_in_metres, rules, doors, robots, planner, \
+outputs
 area: must have only one of path, rows, not path and rows
 robots: must have only one of cells, metres, file, random, not cells and random
 """
