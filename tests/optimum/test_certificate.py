@@ -90,13 +90,15 @@ def test_a_plan_of_any_planner_is_proven_just_if_there_is_none_better():
     for seed in range(swept(120, 60)):
         scenario = crowded_scenario(seed)
         best, plan = th.make_plan(scenario, "optimal"), th.make_plan(scenario, "greedy")
-        if best.optimal and best.total_time == plan.total_time:
-            assert th.make_certificate(plan).plan is plan
-            proven += 1
-        else:
-            with pytest.raises(PlanError, match="a certificate needs the best plan"):
-                th.make_certificate(plan)
-            refused += 1
+        # Where waiting is dear, the planner may miss the optimum and know it; then another may have found it.
+        is_best = plan.total_time == best.total_time if best.optimal else None
+        try:
+            is_proven = th.make_certificate(plan).plan is plan
+        except PlanError:
+            is_proven = False
+        assert is_proven == is_best if best.optimal else not is_proven or plan.total_time <= best.total_time, seed
+        proven += is_proven
+        refused += not is_proven
     assert proven > 5 < refused
 
 
