@@ -15,6 +15,7 @@ from PIL import Image
 from trihex import FormatError, read_area, read_scenario
 from trihex.cli import main
 from trihex.formats import read_draft
+from trihex.formats.areas.cad import read_drawing
 
 # Two rooms of 6 by 8 metres, a door between them, an exit of 2 metres in the east; walls 0.2 metres thick.
 WALLS = [
@@ -280,6 +281,21 @@ def test_an_exit_in_the_middle_of_a_wall_and_on_its_face_is_the_same_row_of_cell
     ends = [np.stack(own.area.cell_to_metres(own.destinations), axis=-1) for own in (one, other)]
     away = np.linalg.norm(ends[0][:, None] - ends[1], axis=-1)
     assert max(away.min(axis=0).max(), away.min(axis=1).max()) <= 1.01 * OPTIONS["cell_size"]
+
+
+@pytest.mark.parametrize("size", [1e8, 1e30])
+def test_curves_that_are_too_large_take_no_time_and_are_told(tmp_path, size):
+    """Chords a centimetre from a curve of 1e30 metres took gigabytes; 1e8 metres are a place still."""
+    document, space, scale = new(6)
+    lines(space, scale)
+    exit_of(space, scale)
+    space.add_circle((0, 0), size, dxfattribs={"layer": "A-WALL"})
+    space.add_ellipse((0, 0), (size, 0), 0.5, dxfattribs={"layer": "A-WALL"})
+    space.add_open_spline([(0, 0, 0), (size, 0, size), (size, size, 0), (0, size, 0)], dxfattribs={"layer": "A-WALL"})
+    drawing = read_drawing(saved(document, tmp_path / "a.dxf").read_bytes(), "a.dxf")
+    kinds = {kind for _, kind in drawing.unknown}
+    assert kinds == (set() if size == 1e8 else {f"{kind} without a length" for kind in ("CIRCLE", "ELLIPSE", "SPLINE")})
+    assert sum(len(piece.points) for piece in drawing.pieces["A-WALL"]) < 20_000
 
 
 def test_rooms_and_named_exits_come_from_their_layers(tmp_path):

@@ -1,5 +1,7 @@
 """Robots share the doors: nobody waits long at one while another is free."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -101,3 +103,16 @@ def test_the_same_crowd_is_shared_in_the_same_way_again():
     scenario = crowd_at_one_door("triangular")
     plans = [make_plan(scenario, "fcost") for _ in range(2)]
     assert np.array_equal(plans[0].actions, plans[1].actions)
+
+
+def test_who_may_begin_late_is_no_queue(monkeypatch):
+    """Arrivals tell how much a door lets in only where all begin at once."""
+    asked = []
+    monkeypatch.setattr(
+        "trihex.planners.fcost.Catchments", lambda *nouns: asked.append(nouns) or catchments_of(scenario)
+    )
+    scenario = crowd_at_one_door("hexagonal")
+    make_plan(scenario, "fcost")
+    assert len(asked) == 1
+    make_plan(replace(scenario, start_times=np.arange(scenario.robot_count) % 7), "fcost")
+    assert len(asked) == 1

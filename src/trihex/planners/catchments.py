@@ -94,15 +94,18 @@ class Catchments:
         robot, of_door, distance = map(np.concatenate, zip(*found, strict=True))
         order = np.argsort(robot, kind="stable")
         robot, of_door, distance = robot[order], of_door[order], distance[order]
+        first = np.searchsorted(robot, np.arange(self._starts.size + 1)).astype(np.int64)
+        several = np.flatnonzero(np.diff(first)[robot] > 1)  # who has one offer only takes it at any price
+        count = np.bincount(of_door[several], minlength=self.door.max() + 1)
         return given(
             Offers,
-            first=np.searchsorted(robot, np.arange(self._starts.size + 1)).astype(np.int64),
+            first=first,
             door=of_door.astype(np.int32),
             distance=distance.astype(np.int64),
             steps=np.maximum(1, (distance + self._step // 2) // self._step).astype(np.int32),
             robot=robot.astype(np.int32),
-            first_of_door=np.append(0, np.cumsum(np.bincount(of_door, minlength=self.door.max() + 1))).astype(np.int64),
-            of_door=np.argsort(of_door, kind="stable").astype(np.int64),
+            first_of_door=np.append(0, np.cumsum(count)).astype(np.int64),
+            of_door=several[np.argsort(of_door[several], kind="stable")].astype(np.int64),
         )
 
     def _make_shares(self, arrival: NDArray[np.int64]) -> Any:

@@ -23,6 +23,8 @@ _FEW, _SPARSE = 2_000_000, 32
 _VISITS = 50_000
 # Doors get prices where robots lose more than such a part of the time, among so many destinations at most.
 _WORTH, _MOST_DESTINATIONS = 0.03, 1000
+# Lanes without prices are then not looked for where so many robot-steps take no more than so many times the distances.
+_LARGE, _ENOUGH = 100_000, 1.08
 # Of so many robots and more each looks for a way better than a free one in every fourth step only: half the time, and
 # totals 0.2 % larger; in small crowds it would be 1 to 2 %.
 _MANY, _PERIOD = 10_000, 4
@@ -45,7 +47,8 @@ def plan_fcost(n_scheme: NScheme, *, rule: str = "best", progress: Progress | No
         robot that would wait may step to a cell no farther away if that costs no more. "aside": the same, and a blocked
         robot always steps to such a cell unless it has just left it. "lanes": the same, and V is not the least distance
         but that along lanes, as many as there is room for, see `trihex.planners.lanes`. "best": "aside" or greedy
-        descent, whichever takes less total time, and "lanes", too, where to look for them takes no longer than to plan.
+        descent, whichever takes less total time, and "lanes", too, where to look for them takes no longer than to plan;
+        with several doors also lanes within the catchment of each, see `trihex.planners.catchments`.
     progress : callable, optional
         Called with (robots arrived, robots that can arrive), of one rule after the other.
     """
@@ -85,7 +88,9 @@ def _run(n_scheme: NScheme, rule: str, keeps_actions: bool, progress: Progress |
     shared = _shared(d_scheme, best, most_visits) if has_lanes else None
     if shared is not None:
         lanes, paid = shared
+        distances = best.crowd.total_distance
         best = _better(best, _simulated(lanes.d_scheme, "aside", keeps_actions, progress, best.total_time + paid))
+        has_lanes = steps < _LARGE or best.total_time > _ENOUGH * distances
     best = _better(best, run_greedy(n_scheme, keeps_actions, progress, best.total_time))
     if steps <= _FEW and not scenario.moves_by_steps:  # small crowds gain 1 to 2 %
         best = _better(best, _simulated(d_scheme, "queue", keeps_actions, progress, best.total_time))
@@ -98,11 +103,8 @@ def _run(n_scheme: NScheme, rule: str, keeps_actions: bool, progress: Progress |
 def _shared(d_scheme: DScheme, first: Recording, most_visits: int) -> tuple[Lanes, int] | None:
     """Return lanes within catchments, and what doors are said to cost; None where nobody had better go elsewhere."""
     scenario = d_scheme.n_scheme.scenario
-    if (
-        not scenario.is_stepwise
-        or scenario.waiting_cost == 0
-        or not 1 < scenario.destinations.size <= _MOST_DESTINATIONS
-    ):
+    is_told = scenario.moves_by_steps and scenario.waiting_cost > 0  # by arrivals, how many a door lets in
+    if not is_told or not 1 < scenario.destinations.size <= _MOST_DESTINATIONS:
         return None
     if first.lost <= _WORTH * first.total_time or doors_of(scenario).max() == 0:
         return None

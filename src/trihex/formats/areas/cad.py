@@ -23,7 +23,8 @@ _MADE_OF_OTHERS = {"INSERT", "MLINE"}
 _WORDS = {"TEXT", "MTEXT"}
 # What a small file may claim: blocks of blocks of blocks.
 _MOST_ENTITIES, _MOST_POINTS, _DEEPEST = 200_000, 2_000_000, 16
-_SAGITTA = 0.01  # metres between a curve and its chords
+_SAGITTA = 0.01  # metres between a curve and its chords, or this share of its size:
+_SHARE = 1e-6
 _MOST_METRES = 1e9
 
 
@@ -172,9 +173,7 @@ def _take(entity: Any, layer: str, scale: float, drawing: Drawing) -> int:
     found = paths.from_hatch(entity) if kind == "HATCH" else [paths.make_path(entity)]
     for path in found:
         for part in path.sub_paths():
-            vertices = (
-                np.array([(v.x, v.y) for v in part.flattening(_SAGITTA / scale, segments=4)]).reshape(-1, 2) * scale
-            )
+            vertices = _flat(part, scale)
             count += len(vertices)
             if len(vertices) < 2 or not (np.abs(vertices) <= _MOST_METRES).all():  # not so for nan
                 drawing.unknown[layer, f"{kind} without a length"] += 1
@@ -185,3 +184,16 @@ def _take(entity: Any, layer: str, scale: float, drawing: Drawing) -> int:
                 vertices[-1] = vertices[0]
             drawing.pieces[layer].append(Piece(vertices, is_closed, kind in _SOLIDS and is_closed))
     return count
+
+
+def _flat(part: Any, scale: float) -> NDArray[np.float64]:
+    """Return the points of a path in metres, curves as chords; none if it is too large for any place.
+
+    (Curves of 1e30 metres would have chords without end.)
+    """
+    control = np.array([v.xyz for v in part.control_vertices()]).reshape(-1, 3) * scale
+    if not (np.abs(control) <= _MOST_METRES).all():  # not so for nan
+        return np.empty((0, 2))
+    sagitta = max(_SAGITTA, _SHARE * float(np.ptp(control, axis=0).max(initial=0)))
+    chords = [(v.x, v.y) for v in part.flattening(sagitta / scale, segments=4)]
+    return np.array(chords).reshape(-1, 2) * scale

@@ -55,6 +55,17 @@ def _walk_away(door, graph, search):
     return beside
 
 
+@HELPER
+def _is_inside(node, graph, search):
+    """Tell whether a barrier lies among barriers alone: most do in thick walls."""
+    j = 0
+    while graph.into[node, j, OFFSET] != 0:
+        if not search.barrier[graph.into[node, j, OTHER]]:
+            return False
+        j += 1
+    return True
+
+
 @kernel(types.void(SLOT_GRAPH, DOOR_SEARCH, OUT_I64, types.int64, types.int64))
 def bound_doors(graph, search, saved, first, end):
     """Write how many steps each of the doors `first` to `end` - 1 saves at most.
@@ -64,6 +75,9 @@ def bound_doors(graph, search, saved, first, end):
     """
     last = len(search.arrived) - 1
     for k in range(first, end):
+        if _is_inside(search.node[k], graph, search):
+            saved[k] = 0
+            continue
         beside = _walk_away(search.node[k], graph, search)
         room = min(beside, search.capacity) if search.capacity else beside
         for step in range(last + 1):

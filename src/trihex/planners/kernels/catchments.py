@@ -25,7 +25,7 @@ class Offers(NamedTuple):
     steps: IN_I32
     robot: IN_I32
     first_of_door: IN_I64  # door d has the entries of_door[first_of_door[d]] .. of_door[first_of_door[d + 1] - 1]
-    of_door: IN_I64
+    of_door: IN_I64  # of robots that have several, door by door
 
 
 class Shares(NamedTuple):
