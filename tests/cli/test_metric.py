@@ -247,3 +247,44 @@ def test_all_that_is_written_of_a_plan_is_in_ticks_by_the_clock_costs(house, tmp
         assert done.exit_code == 2 and message in done.output and len(done.output.strip().splitlines()) <= 3, (
             done.output
         )
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (
+            ["plan", "--out", "p.dependencies.json"],
+            "dependencies tell who waits for whom, not for how long: doors must",
+        ),
+        (["plan", "--out", "p.vda5050.json"], "dependencies tell who waits for whom, not for how long: doors must"),
+        (
+            ["run", "--replan"],
+            "planner must be greedy or fcost, without replan, where doors have a flow, not 'fcost' wi",
+        ),
+        (
+            ["run", "--planner", "astar"],
+            "planner must be greedy or fcost, without replan, where doors have a flow, not",
+        ),
+    ],
+)
+def test_what_doors_forbid_is_told_before_anything_is_planned(arguments, told, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "a.geojson").write_text(DOORS.replace("KIND", "destination").replace("AT", "6"))
+    for name in ("trihex.planners.make_plan", "trihex.running.Trial.__init__", "trihex.kernels.preparing.prepare"):
+        monkeypatch.setattr(name, lambda *_, **__: pytest.fail("the work has begun"))
+    command, *options = arguments
+    done = run(command, "a.geojson", "--cell-size", "0.5", "--robots", 3, *options)
+    assert done.exit_code == 2 and told in done.output and "\n" not in done.output.strip()
+    assert [path.name for path in tmp_path.iterdir()] == ["a.geojson"]
+
+
+def test_the_order_of_a_plan_is_written_by_plan_and_by_convert_alike(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "a.map").write_text("type octile\nheight 1\nwidth 5\nmap\n.....\n")
+    place = ["a.map", "--destination", "4,0", "--robots", 3]
+    assert run("plan", *place, "--out", "p.npz").exit_code == 0
+    assert run("plan", *place, "--speed", 0.5, "--out", "p.dependencies.json").exit_code == 0
+    assert run("convert", "p.npz", "c.dependencies.json", "--speed", 0.5).exit_code == 0
+    assert (tmp_path / "p.dependencies.json").read_bytes() == (tmp_path / "c.dependencies.json").read_bytes()
+    refused = run("plan", *place, "--out", "p.vda5050.json")
+    assert refused.exit_code == 2 and "--out p.vda5050.json is in metres: add --cell-size" in refused.output
