@@ -122,8 +122,8 @@ class Score(Record):
             "exits": self.exits,
             "seconds_lost": float(self.lost.sum()),
             "speed": self.speed,
-            "flow": self.flow,
-            "flows": self.flows,
+            "flow": None if self.flow is None else round(self.flow, 9),
+            "flows": {name: round(flow, 9) for name, flow in self.flows.items()},
             "cell_size": self.scenario.area.metres.cell_size,
         }
 
@@ -196,9 +196,7 @@ def _flows(scenario: Scenario, elsewhere: float | None) -> tuple[dict[str, float
             flows[door.name or area.name_of_cell(int(door.cells[0]))] = float(door.flow) / step
             is_free &= ~is_own
     if elsewhere is not None and not is_free.any():
-        raise ScenarioError(
-            f"flow is of exits without a capacity, and all have one; it must be None, not {elsewhere:g}"
-        )
+        raise ScenarioError(f"flow is of exits without a capacity, and all have one, so {elsewhere:g} cannot be told")
     if elsewhere is not None:
         flows["elsewhere"] = float(elsewhere)
     return flows, elsewhere is not None or not is_free.any()
