@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from trihex.areas import GENERATORS, Area, Scenario, random_robots
 from trihex.bounds import distance_bound, make_lower_bound, slot_bound
-from trihex.errors import FormatError, TooLargeError, TrihexError, check_choice, check_type, is_whole
+from trihex.errors import FormatError, TooLargeError, TrihexError, check_choice, check_type
 from trihex.fields import distance_generations, make_d_scheme
 from trihex.files import read_bytes
 from trihex.formats import (
@@ -347,11 +347,6 @@ def _drawn(draft: Draft, call: Call) -> Draft:
 
 
 def _drafted(draft: Draft) -> Bundle:
-    if draft.doors or not (draft.destination_capacity is None or is_whole(draft.destination_capacity)):
-        raise FormatError(
-            "the viewer plans without doors that have a flow, so it cannot open a place that has some: "
-            "plan with trihex plan --out plan.npz, and open that"
-        )
     header, arrays = document_of(draft)
     ground, more = ground_of(draft)
     return Bundle({"document": header, "planner": draft.planner, "ground": ground}, {**arrays, **more})
