@@ -318,9 +318,13 @@ class Desk:
 
     def _layer(self, request: ask.MakeLayer, call: Call) -> Bundle:
         check_choice("layer", request.layer, LAYERS, FormatError)
-        plan = self.shelf.report(request.plan).plan
-        prepare_for(call, *LAYERS[request.layer].uses, scenario=plan.scenario)
-        return make_layer(request.layer, plan, call.progress("pricing"))
+        motion: Plan | Run
+        if request.live is None:
+            motion = self.shelf.report(request.plan).plan
+        else:
+            motion = self.shelf.live(request.live).record()
+        prepare_for(call, *LAYERS[request.layer].uses, scenario=motion.scenario)
+        return make_layer(request.layer, motion, call.progress("pricing"))
 
     def _shown(self, plan: Plan, seconds: dict[str, float], call: Call) -> Bundle:
         """Return the plan with the bounds that are had at once; the page asks for a better one while it plays."""

@@ -28,7 +28,7 @@ export class Readout {
       this.element.removeAttribute("data-cell");
       return;
     }
-    const layer = this.app.panes[i].layer ? this.app.layers.wordsOf(this.app.runs[i], cell) : "";
+    const layer = this.app.panes[i].layer ? this.app.layers.wordsOf(this.app.runs[i] ?? this.app.live, cell) : "";
     const more = [this.#ownerIn(this.app.panes[i], cell), layer].filter(Boolean);
     const words = [...this.#there(doc, cell), ...more, ...this.#ahead(doc, i, cell)];
     this.element.textContent = words.join(" · ");
