@@ -32,7 +32,7 @@ def told_doors(area: Area, doors: Sequence[Door]) -> list[dict[str, Any]]:
     """Return doors of an area, by the clock that holds in it, as a document has them."""
     return [
         {
-            "name": door.name[:200],
+            "name": door.name,
             "cells": door.cells.tolist(),
             "flow": str(door.flow),
             "words": _words(area, door.flow),
