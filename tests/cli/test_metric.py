@@ -249,6 +249,25 @@ def test_all_that_is_written_of_a_plan_is_in_ticks_by_the_clock_costs(house, tmp
         )
 
 
+def test_a_turn_time_that_cannot_be_is_told_before_robots_go_their_ways(house, tmp_path, monkeypatch):
+    options = ["house.yaml", "--cell-size", "0.5", "--tessellation", "square", "--clock", "costs", *PLACES]
+    options += ["--robots", 20]
+    assert run("plan", *options, "--out", "p.npz").exit_code == 0
+    assert run("run", *options, "--out", "r.npz", "--max-steps", 20).exit_code == 0
+
+    def begun(*args, **more):
+        raise AssertionError("robots were planned or ran")
+
+    monkeypatch.setattr("trihex.planners.make_plan", begun)
+    monkeypatch.setattr("trihex.running.passing.PassingOrder.run", begun)
+    monkeypatch.setattr("trihex.running.trial.Trial.run", begun)
+    assert run("plan", *options).exit_code == 3
+    for command in (["plan", *options], ["run", *options], ["run", "--plan", "p.npz"], ["run", "--resume", "r.npz"]):
+        done = run(*command, "--turn-time", 1, "--waypoints", "w.csv")
+        assert done.exit_code == 2 and "turn_time must be 0 where clock is 'costs'" in done.output, done.output
+        assert not (tmp_path / "w.csv").exists()
+
+
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [

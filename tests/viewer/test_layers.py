@@ -131,6 +131,34 @@ def test_maps_are_seen_and_told_and_two_plans_have_colours_alike(open_viewer):
     assert menu.is_visible() and shown.ask("app.panes[0].layer.unit") == "robots" and shown.faults == []
 
 
+def test_a_run_that_is_watched_has_its_maps_when_it_is_over(open_viewer, tmp_path):
+    run = th.Trial(queueing("square").scenario).run()
+    th.write_run(run, tmp_path / "run.npz")
+    shown = open_viewer()
+    page, menu = shown.page, shown.page.get_by_label("Map", exact=True)
+    page.get_by_label("Steps per second").fill("30")
+    shown.press("Open…")
+    shown.press("run.npz")
+    shown.wait("app.live && app.live.last.is_over && app.live.fraction === 1 && !app.live.isAsking")
+    menu.select_option("waiting")
+    shown.wait("app.panes[0].layer")
+    values = th.make_waiting_map(run)
+    assert values.max() > 3 and shown_by(shown.colours(shift=(0.3, 0.3)), values, values.max()).all()
+    y, x = np.argwhere(values == values.max())[0]
+    page.mouse.move(*map(float, shown.place(x, y)))
+    assert all(f"{values.max()} steps lost" in shown.text(place) for place in (".readout", ".legend"))
+    shown.keep("map-of-a-run")
+    shown.press("Robot")
+    page.get_by_label("Steps per second").fill("1")
+    shown.click(0, 3)  # one that joins: it goes on
+    shown.wait("!app.live.last.is_over")
+    assert shown.ask("app.panes[0].layer") is None and not menu.is_visible()
+    page.get_by_label("Steps per second").fill("30")
+    shown.wait("app.live.last.is_over && app.panes[0].layer")
+    lost = shown.ask("app.panes[0].layer.values.reduce((a, b) => a + b)")
+    assert lost == values.sum() and menu.is_visible() and shown.faults == []
+
+
 def test_prices_are_seen_beside_a_plan_that_has_none(open_viewer):
     area = th.make_rooms_area("hexagonal", 12, 16, room=4, seed=2)
     end = np.flatnonzero(~area.barriers)[60:61]

@@ -100,7 +100,7 @@ def command(beginning: Beginning, way: Way, outputs: Outputs, maps: Maps, max_st
         raise wrong_use("--line-of-sight is about what robots see: add --sense")
     _check_beginning(beginning, way)
     if beginning.plan is not None:
-        run, plan = _followed(beginning.plan, way.delays or 0.0, options["seed"] or 0, max_steps)
+        run, plan = _followed(beginning.plan, pace, way.delays or 0.0, options["seed"] or 0, max_steps)
         told: dict[str, Any] = {"reference": plan}
         is_over = run.steps < max_steps
     else:
@@ -188,6 +188,14 @@ def _events_of(way: Way, area: Any, pace: dict[str, Any]) -> Any:
     return () if way.events is None else read_events(way.events, area, **timed)
 
 
+def _check_pace(area: Any, pace: dict[str, Any]) -> None:
+    """Raise unless robots can be as fast as told, before they go their ways."""
+    from trihex.areas import seconds_per_step
+
+    if area.frame is not None:
+        seconds_per_step(area, **{name: value for name, value in pace.items() if name != "frame_id"})
+
+
 def _resumed(path: Path, way: Way, pace: dict[str, Any]) -> Any:
     from trihex.formats import read_run
     from trihex.running import resume_trial
@@ -195,6 +203,7 @@ def _resumed(path: Path, way: Way, pace: dict[str, Any]) -> Any:
     if way.delays is not None:
         raise wrong_use("--resume says all itself, so --delays cannot be told")
     run = read_run(path)
+    _check_pace(run.scenario.area, pace)
     events = _events_of(way, run.scenario.area, pace)
     late = [str(event) for event in events if event.step <= run.steps]
     if late:
@@ -202,12 +211,13 @@ def _resumed(path: Path, way: Way, pace: dict[str, Any]) -> Any:
     return resume_trial(run, events, replan=way.replan, budget=way.budget)
 
 
-def _followed(path: Path, delay: float, seed: int, most_steps: int) -> tuple[Any, Any]:
+def _followed(path: Path, pace: dict[str, Any], delay: float, seed: int, most_steps: int) -> tuple[Any, Any]:
     """Return the run of robots that keep to the order of a plan, and the plan."""
     from trihex.formats.plans.npz import read_plan_npz
     from trihex.running import make_passing_order
 
     plan = read_plan_npz(path)
+    _check_pace(plan.scenario.area, pace)
     return make_passing_order(plan).run(delay=delay, seed=seed, most_steps=most_steps), plan
 
 

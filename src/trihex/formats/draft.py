@@ -98,7 +98,7 @@ class Draft(Record):
         if len(destinations) == 0:
             raise ScenarioError("destinations must name at least one cell")
         names = ("crossing", "corners", "clock", "following")
-        capacity, doors = self._flows()
+        capacity, doors = self.flows()
         scenario = kind(
             self.area,
             destinations,  # type: ignore[arg-type]
@@ -128,7 +128,7 @@ class Draft(Record):
         times = np.asarray(given)
         return start_times_of(area, times, **pace) if times.dtype.kind == "f" else times
 
-    def _flows(self) -> tuple[int | Fraction | None, tuple[Door, ...]]:
+    def flows(self) -> tuple[int | Fraction | None, tuple[Door, ...]]:
         """Return the capacity of destinations and the doors, by how long a step lasts as outputs say it."""
         area = self.area if self.clock is None else self.area.with_clock(self.clock)
         pace = {n: v for n, v in self.outputs.items() if n in ("speed", "turn_time")} if area.frame is not None else {}

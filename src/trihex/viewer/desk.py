@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from trihex.areas import GENERATORS, Area, Scenario, random_robots
 from trihex.bounds import distance_bound, make_lower_bound, slot_bound
-from trihex.errors import FormatError, TooLargeError, TrihexError, check_choice, check_type, is_whole
+from trihex.errors import FormatError, TooLargeError, TrihexError, check_choice, check_type
 from trihex.fields import distance_generations, make_d_scheme
 from trihex.files import read_bytes
 from trihex.formats import (
@@ -318,9 +318,13 @@ class Desk:
 
     def _layer(self, request: ask.MakeLayer, call: Call) -> Bundle:
         check_choice("layer", request.layer, LAYERS, FormatError)
-        plan = self.shelf.report(request.plan).plan
-        prepare_for(call, *LAYERS[request.layer].uses, scenario=plan.scenario)
-        return make_layer(request.layer, plan, call.progress("pricing"))
+        motion: Plan | Run
+        if request.live is None:
+            motion = self.shelf.report(request.plan).plan
+        else:
+            motion = self.shelf.live(request.live).record()
+        prepare_for(call, *LAYERS[request.layer].uses, scenario=motion.scenario)
+        return make_layer(request.layer, motion, call.progress("pricing"))
 
     def _shown(self, plan: Plan, seconds: dict[str, float], call: Call) -> Bundle:
         """Return the plan with the bounds that are had at once; the page asks for a better one while it plays."""
@@ -347,11 +351,6 @@ def _drawn(draft: Draft, call: Call) -> Draft:
 
 
 def _drafted(draft: Draft) -> Bundle:
-    if draft.doors or not (draft.destination_capacity is None or is_whole(draft.destination_capacity)):
-        raise FormatError(
-            "the viewer plans without doors that have a flow, so it cannot open a place that has some: "
-            "plan with trihex plan --out plan.npz, and open that"
-        )
     header, arrays = document_of(draft)
     ground, more = ground_of(draft)
     return Bundle({"document": header, "planner": draft.planner, "ground": ground}, {**arrays, **more})

@@ -14,6 +14,7 @@ from trihex.areas import Area, Frame, RasterGround, Tessellation, usual_followin
 from trihex.errors import FormatError, TooLargeError
 from trihex.formats import Draft
 from trihex.viewer.bundle import Bundle
+from trihex.viewer.doors import DoorHeader, told_doors, with_doors
 
 # A page holds some 20 bytes a cell and 50 a robot.
 MAX_CELLS = 2**24
@@ -24,6 +25,7 @@ _DRAWN_SQUARE = 0.05  # of a drawing, in edge steps
 _Whole = Annotated[int, Field(ge=0, le=2**30)]
 _Side = Annotated[int, Field(ge=1, le=MAX_CELLS)]
 _Finite = Annotated[float, Field(allow_inf_nan=False)]
+_Flow = Annotated[str, Field(max_length=40)]
 
 
 class _Strict(BaseModel):
@@ -54,10 +56,11 @@ class DocumentHeader(_Strict):
     corners: str = "allow"
     clock: str = "steps"
     following: str | None = None
-    destination_capacity: Annotated[int, Field(ge=1, le=2**30)] | None = None
+    destination_capacity: Annotated[int, Field(ge=1, le=2**30)] | _Flow | None = None
     seed: Annotated[int, Field(ge=0, lt=2**53)] | None = None  # JavaScript has no larger whole numbers
     # Cell and start time of robots that may not begin at once: pages hand it on, whatever becomes of other robots.
     start_times: list[Annotated[list[_Whole], Field(min_length=2, max_length=2)]] | None = None
+    doors: list[DoorHeader] | None = None
 
 
 def document_of(draft: Draft) -> Bundle:
@@ -78,6 +81,7 @@ def document_of(draft: Draft) -> Bundle:
             f"not {area.cell_count} and {robots.size}"
         )
     frame = area.frame
+    capacity, doors = draft.flows()
     header = {
         "name": area.name[:400],
         "tessellation": area.tessellation.name,
@@ -97,9 +101,11 @@ def document_of(draft: Draft) -> Bundle:
         "corners": draft.corners or "allow",
         "clock": draft.clock or area.tessellation.clock,
         "following": draft.following or usual_following(area.tessellation, frame),
-        "destination_capacity": _whole_capacity(draft),
+        "destination_capacity": _told_capacity(capacity),
         "seed": None if draft.seed is None else int(draft.seed),
     }
+    if doors:
+        header["doors"] = told_doors(_clocked(draft), doors)
     if draft.has_start_times:
         header["start_times"] = _start_times(draft, robots)
     arrays: dict[str, NDArray[Any]] = {
@@ -112,8 +118,7 @@ def document_of(draft: Draft) -> Bundle:
 
 def _start_times(draft: Draft, robots: NDArray[Any]) -> list[list[int]]:
     """Return cell and start time of each robot that may not begin at once; those that join a run may."""
-    area = draft.area if draft.clock is None else draft.area.with_clock(draft.clock)
-    times = draft.steps_of_starts(area, robots.size)[: robots.size]
+    times = draft.steps_of_starts(_clocked(draft), robots.size)[: robots.size]
     late = np.flatnonzero(times)
     pairs: list[list[int]] = np.stack([robots[late], times[late]], axis=1).astype(np.int64).tolist()
     return pairs
@@ -167,7 +172,7 @@ def draft_of_document(header: Any, arrays: dict[str, NDArray[Any]]) -> Draft:
     if parsed.frame is not None:
         x, y = parsed.frame.origin
         frame = Frame(parsed.frame.cell_size, (x, y), parsed.frame.yaw, parsed.frame.robot_radius)
-    return Draft(
+    draft = Draft(
         Area(tessellation, barriers, parsed.name, frame),
         arrays["destinations"].astype(np.int64),
         arrays["robots"].astype(np.int64),
@@ -180,6 +185,7 @@ def draft_of_document(header: Any, arrays: dict[str, NDArray[Any]]) -> Draft:
         destination_capacity=parsed.destination_capacity,
         start_times=_times_of(arrays["robots"], parsed.start_times) if parsed.start_times else None,
     )
+    return with_doors(draft, parsed.doors) if parsed.doors else draft
 
 
 def _times_of(robots: NDArray[np.int32], pairs: list[list[int]]) -> NDArray[np.int64]:
@@ -187,10 +193,15 @@ def _times_of(robots: NDArray[np.int32], pairs: list[list[int]]) -> NDArray[np.i
     return np.array([time_of_cell.get(cell, 0) for cell in robots.tolist()], dtype=np.int64)
 
 
-def _whole_capacity(draft: Draft) -> int | None:
-    """Return how many robots enter a destination at a time; of a flow, which the page does not know, at most."""
-    capacity = draft.destination_capacity
-    return None if capacity is None else ceil(Fraction(capacity))
+def _clocked(draft: Draft) -> Area:
+    return draft.area if draft.clock is None else draft.area.with_clock(draft.clock)
+
+
+def _told_capacity(capacity: int | Fraction | None) -> int | str | None:
+    """Return how many robots enter a destination in a step; a fraction as text."""
+    if capacity is None:
+        return None
+    return int(capacity) if capacity.denominator == 1 else str(capacity)
 
 
 def _cells(cells: NDArray[np.int64] | None) -> NDArray[np.int32]:

@@ -87,9 +87,10 @@ class Bound(Request):
 
 
 class MakeLayer(Request):
-    """A map of a plan over its cells."""
+    """A map of a plan, or of a `live` run so far, over its cells."""
 
-    plan: _Text
+    plan: _Text = ""
+    live: _Text | None = None
     layer: _Text
 
 

@@ -3,9 +3,9 @@
 export const DARK = {
   free: [43, 47, 54], barrier: [146, 152, 162], unreached: [84, 82, 90], moving: [86, 180, 233],
   tight: [92, 97, 106], path: [255, 176, 0], stranded: [250, 250, 250], page: [24, 26, 30], fog: [66, 74, 92],
-  fog_barrier: [104, 114, 136],
+  fog_barrier: [104, 114, 136], door: [196, 160, 255],
 };
-export const LIGHT = { page: [233, 234, 236], path: [150, 0, 90] };
+export const LIGHT = { page: [233, 234, 236], path: [150, 0, 90], door: [112, 48, 208] };
 
 export const packed = ([r, g, b]) => (255 << 24) | (b << 16) | (g << 8) | r;
 export const css = ([r, g, b], a = 1) => `rgba(${r},${g},${b},${a})`;

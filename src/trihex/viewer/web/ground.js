@@ -2,6 +2,7 @@
 
 import { NOT_REACHED, shapeOf } from "./documents.js";
 import { packed, css, isLight, mix } from "./colours.js";
+import { drawDoors } from "./doors.js";
 import { leaksOf } from "./leaks.js";
 import { strokeEach } from "./marks.js";
 
@@ -16,6 +17,7 @@ export function drawGround(pane, palette) {
   if (cells && scale >= OUTLINES_FROM) drawLeaks(pane, cells, palette);
   if (cells && pane.values && scale >= ARROWS_FROM) drawField(pane, cells, palette);
   drawDestinations(pane, palette);
+  drawDoors(pane, palette);
   if (pane.paths) drawPaths(pane, palette);
   if (pane.track) drawTrack(pane);
 }

@@ -31,8 +31,14 @@ export class Layers {
   // The map of a plan that is wanted, null if there is none.
   of(run) { return run?.layers[this.menu.value] ?? null; }
 
+  // The plans that are shown, or the live run once it is over.
+  get #shown() {
+    const { live, runs } = this.app;
+    return (live ? [live.last.is_over ? live : null] : runs).filter(Boolean);
+  }
+
   // The greatest value of all plans that are shown, so that they are coloured alike.
-  get most() { return Math.max(0, ...this.app.runs.map((run) => this.of(run)?.most ?? 0)); }
+  get most() { return Math.max(0, ...this.#shown.map((run) => this.of(run)?.most ?? 0)); }
 
   // What a map says of a cell, in words; "" if nothing.
   wordsOf(run, cell) {
@@ -47,8 +53,9 @@ export class Layers {
 
   // The plans that have a map of the wanted kind which is not here; a run that is over has all its maps with it.
   get #lacking() {
-    const { app, menu: { value: layer } } = this;
-    return app.runs.filter((run) => layer && run?.plan && !run.layers[layer] && (!this.#isSlow || run.summary.optimal));
+    const { menu: { value: layer } } = this, isKept = (run) => run.plan || run.name;
+    const isLacking = (run) => isKept(run) && !run.layers[layer] && (!this.#isSlow || run.summary?.optimal);
+    return layer ? this.#shown.filter(isLacking) : [];
   }
 
   // Another map is wanted, or there are other plans.
@@ -64,12 +71,13 @@ export class Layers {
 
   // Ask for a map; what takes long can be cancelled, and is not asked for again by itself.
   async #fetch(run, layer) {
-    const { app } = this, request = { op: "layer", plan: run.plan, layer };
+    const { app } = this, { layers } = run; // others, if the run goes on meanwhile
+    const request = { op: "layer", layer, ...(run.plan ? { plan: run.plan } : { live: run.name }) };
     try {
       const answer = this.#isSlow ? await app.ask(request, {}, "Pricing…") : await app.host.ask(request, {});
       if (!answer) return this.#choose("");
-      run.layers[layer] = layerOf(answer.header, answer.arrays.values);
-      if (app.runs.includes(run)) app.stage.show();
+      layers[layer] = layerOf(answer.header, answer.arrays.values);
+      if (this.#shown.includes(run)) app.stage.show();
     } catch (error) {
       app.say(complaintOf(error), true);
       this.#choose("");
@@ -83,8 +91,7 @@ export class Layers {
   }
 
   show() {
-    const { live, runs } = this.app;
-    this.element.hidden = !!live || !runs[0] || !Object.keys(this.kinds).length;
-    if (!live && this.#lacking.length) this.changed();
+    this.element.hidden = !this.#shown.length || !Object.keys(this.kinds).length;
+    if (this.#lacking.length) this.changed();
   }
 }

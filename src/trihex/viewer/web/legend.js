@@ -2,6 +2,7 @@
 
 import { h, number } from "./words.js";
 import { css } from "./colours.js";
+import { doorsOf } from "./doors.js";
 import { amount } from "./layers.js";
 import { STRANDED } from "./playback.js";
 
@@ -17,7 +18,7 @@ export class Legend {
     const palette = this.app.panes[0].palette();
     const entries = this.#entries().map(([name, words, kind = "disc"]) => {
       const mark = h("i", { class: kind });
-      mark.style.background = css(palette[name]);
+      mark.style.setProperty("--mark", css(palette[name]));
       return h("span", {}, mark, words);
     });
     this.element.replaceChildren(...entries, ...this.#ramp(palette));
@@ -26,6 +27,7 @@ export class Legend {
   #entries() {
     const { live, runs: [run], doc, field, stage } = this.app, { values } = this.app.panes[0];
     const entries = [["barrier", doc.ground ? "wall" : "barrier", "cell"], ["destination", "destination"]];
+    if (doorsOf(doc).length) entries.push(["door", "door with a flow", "door"]);
     if (doc.ground) entries.splice(1, 0, ["tight", "robots do not fit", "cell"]);
     const isFoggy = live?.known || run?.playback.worlds?.knownSince;
     if (isFoggy) entries.push(["fog", "not seen", "cell"], ["fog_barrier", "barrier not seen", "cell"]);

@@ -43,6 +43,7 @@ export class Live {
     this.frames = []; // that have come and are not shown yet
     this.events = []; // that are not sent yet
     this.refused = []; // { cell, until }: crosses
+    this.layers = {}; // maps of it by name, once it is over
     this.gaps = new Set(); // cells of a wall that is being painted where robots still stand
   }
 
@@ -117,6 +118,7 @@ export class Live {
     this.#tellRefused(header);
     if (header.is_over && !last.is_over && header.step) this.#end();
     if (!header.is_over) this.summary = null;
+    if (last.is_over && header !== last) this.#dropLayers();
     if (!last.cut_off !== !header.cut_off || !last.broken !== !header.broken) this.app.stage.legend.show();
     this.app.showNumbers();
   }
@@ -173,7 +175,15 @@ export class Live {
     }
   }
 
+  // It goes on, or its world is another one.
+  #dropLayers() {
+    this.layers = {};
+    this.app.layers.show();
+    this.app.stage.show();
+  }
+
   async #end() {
+    this.app.layers.show();
     const { app } = this, { cut_off: cutOff, broken } = this.last, hasEnd = this.doc.destinations.length;
     const next = hasEnd ? "erase a wall to open a way" : "there is no destination; set one";
     if (cutOff) app.say(`${plural(cutOff, "robot")} ${cutOff === 1 ? "is" : "are"} cut off: ${next}.`, true);

@@ -1,6 +1,7 @@
 // Readout: what is known of the cell under the pointer.
 
 import { h, number } from "./words.js";
+import { wordsOfDoor } from "./doors.js";
 import { NOT_REACHED, centreOf, shapeOf } from "./documents.js";
 import { ownerOf } from "./owners.js";
 import { nameOfCell, nameOfRobot } from "./names.js";
@@ -27,7 +28,7 @@ export class Readout {
       this.element.removeAttribute("data-cell");
       return;
     }
-    const layer = this.app.panes[i].layer ? this.app.layers.wordsOf(this.app.runs[i], cell) : "";
+    const layer = this.app.panes[i].layer ? this.app.layers.wordsOf(this.app.runs[i] ?? this.app.live, cell) : "";
     const more = [this.#ownerIn(this.app.panes[i], cell), layer].filter(Boolean);
     const words = [...this.#there(doc, cell), ...more, ...this.#ahead(doc, i, cell)];
     this.element.textContent = words.join(" · ");
@@ -44,10 +45,20 @@ export class Readout {
     const words = [`cell ${nameOfCell(doc, cell)}`];
     if (doc.barriers[cell]) words.push("barrier");
     else words.push(doc.destinations.includes(cell) ? "destination" : "free");
+    words.push(wordsOfDoor(doc, cell));
     const robot = this.app.clock.at === 0 ? doc.robots.indexOf(cell) : -1;
     if (robot >= 0) words.push(nameOfRobot(robot, doc.robots.length));
+    words.push(this.#startAt(doc, cell));
     if (doc.header.frame) words.push(metresOf(doc, cell));
-    return words;
+    return words.filter(Boolean);
+  }
+
+  // When the robot on a cell may begin to move, as long as it may not; until then it stands where it starts.
+  #startAt({ header, robots, destinations }, cell) {
+    const { live, clock } = this.app, step = live ? live.last.step : clock.step;
+    const [, time] = header.start_times?.find(([start]) => start === cell) ?? [];
+    if (!(time > step) || !robots.includes(cell) || destinations.includes(cell)) return "";
+    return `may begin to move in ${header.clock === "costs" ? "tick" : "step"} ${time + 1}`;
   }
 
   #ahead(doc, i, cell) {

@@ -1,9 +1,18 @@
 // Rules: the cells of the document and how robots move on them, as the panel lets them be chosen.
 
 import { h, title, wholeOf } from "./words.js";
-import { button, grid, inner, note, numberField, section, select } from "./controls.js";
+import { button, grid, inner, labelled, note, numberField, section, select } from "./controls.js";
 import { mayLeak } from "./leaks.js";
 import { OF_RULES } from "./sentences.js";
+
+const ENTRY = "Arrivals per step and destination";
+const DOORS_STAY = "Its doors let in so many robots a step or tick: change the clock in its file, and open it again.";
+
+// A whole number, or a fraction as text, such as 1/2 or 0.5, which the host reads.
+function flowOf({ value }) {
+  const text = value.trim(), flow = Number(text);
+  return !text ? null : Number.isInteger(flow) && flow > 0 ? flow : text;
+}
 
 export class Rules {
   constructor(app) {
@@ -24,8 +33,8 @@ export class Rules {
       following: select("Following", followings, rule("following")),
       waiting_cost: numberField("Waiting cost w_t", "",
         { min: 0, placeholder: "one edge", onchange: whole("waiting_cost") }),
-      destination_capacity: numberField("Arrivals per step and destination", "",
-        { min: 1, placeholder: "any", onchange: whole("destination_capacity") }),
+      destination_capacity: labelled(ENTRY, h("input", { placeholder: "any", "aria-label": ENTRY,
+        onchange: ({ target }) => this.#rule("destination_capacity", flowOf(target)) })),
     };
     for (const [name, field] of Object.entries(this.fields)) field.setAttribute("title", OF_RULES[name]);
     this.squeeze = note("Robots may squeeze between walls that touch at a corner: ",
@@ -41,6 +50,10 @@ export class Rules {
     if (header.frame && (changes.tessellation || changes.neighbourhood)) {
       app.refresh();
       return app.say("This area lies in the world in metres: open its file again with other cells.", true);
+    }
+    if (header.doors && (changes.clock || header.clock === "costs")) {
+      app.refresh();
+      return app.say(DOORS_STAY, true);
     }
     // A cost of waiting in the old unit would mean something else.
     if (changes.costs || changes.clock) header.waiting_cost = null;

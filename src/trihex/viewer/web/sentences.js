@@ -56,7 +56,7 @@ export const OF_RULES = {
   clock: "Steps: every move lasts one step. Costs: a move lasts as long as it costs, in ticks; a wait lasts a tick.",
   following: "Allow: a robot may move up into a cell that is being left. Forbid: nobody enters it until it is empty.",
   waiting_cost: "What a robot pays for each step in which it stands still; by default as much as a move over an edge.",
-  destination_capacity: "How many robots may enter a destination in one step; by default any number.",
+  destination_capacity: "How many robots may enter a destination in one step, 1/2: one in two; by default any number.",
 };
 
 export const UNITS = "Times are in time units: a move over an edge takes";

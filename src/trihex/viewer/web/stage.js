@@ -133,7 +133,7 @@ export class Stage {
   #showFirst() {
     const { runs: [run], doc, fields, growth, live, field } = this.app, [pane] = this.panes;
     const distance = fields?.distance, values = growth ? growth.values : distance ?? null;
-    const layer = growth ? null : this.#layerOf(run);
+    const layer = growth ? null : this.#layerOf(run ?? live);
     pane.take({
       layer, // it takes the place of the field; the field of a run changes with its world
       values: field.isShown && !layer && !run?.playback.worlds ? values : null,
