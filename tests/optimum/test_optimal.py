@@ -155,6 +155,19 @@ def test_the_least_total_time_is_that_of_integer_programming(share):
     assert proven >= swept(17, 3)
 
 
+def test_where_waiting_is_dear_no_planner_is_better():
+    """Robots that had to wait in place of an exchange may pay more than `fcost` does, which may then even be proven."""
+    for seed in range(40, 60):
+        scenario = random_scenario(seed, sides=(3, 7), most_robots=24, waiting_costs=(15, 40))
+        plan = make_plan(scenario, "optimal")
+        assert th.audit_plan(plan).is_clean
+        assert plan.total_time <= min(make_plan(scenario, planner).total_time for planner in ("fcost", "greedy")), seed
+    for seed, least in ((31, 35_000), (141, 58_000), (169, 200)):
+        scenario = random_scenario(seed, sides=(3, 7), most_robots=24, waiting_costs=(15, 40))
+        plan = make_plan(scenario, "optimal")
+        assert (plan.planner, plan.optimal, plan.total_time) == ("optimal", True, least)
+
+
 @pytest.mark.parametrize("share", range(5))
 def test_the_least_sum_of_steps_is_that_of_integer_programming(share):
     for seed in range(share, swept(40, 10), 5):

@@ -56,7 +56,8 @@ def plan_optimal(
     -------
     Plan
         `optimal` is True if its sum of t_r is proven to be the least: under "time", unless waiting costs more than a
-        move and robots had to wait in place of an exchange of cells.
+        move and robots had to wait in place of an exchange of cells; then it is the cheaper one of that plan and
+        that of `fcost`.
 
     Raises
     ------
@@ -80,7 +81,17 @@ def plan_optimal(
     cells = network.node_of_site[sites[going]].astype(np.int64)
     order = np.argsort(network.value[cells], kind="stable")
     flow = _find_flow(n_scheme, network, cells[order], going[order], progress=progress, memory_limit=memory_limit)
-    return make_plan_of_flow(flow, going[order], proves=objective == "time")
+    plan = make_plan_of_flow(flow, going[order], proves=objective == "time")
+    if objective == "steps" or plan.optimal:
+        return plan
+    least = flow.total + scenario.waiting_cost * int(scenario.start_times[going].sum())
+    return _cheaper(plan, plan_fcost(n_scheme), least)
+
+
+def _cheaper(plan: Plan, other: Plan, least: int) -> Plan:
+    """Return the plan of less total time; where robots had to wait in place of exchanging cells `fcost` may be that."""
+    best = min(plan, other, key=lambda one: one.total_time)
+    return replace(best, planner="optimal", optimal=best.total_time == least)
 
 
 def check_is_flow(scenario: Scenario) -> None:
