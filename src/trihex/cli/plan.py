@@ -133,6 +133,8 @@ def _check_before(draft: Any, *, straight: bool, certificate: bool) -> None:
     if draft.destinations is None or not (straight or certificate):  # it is told a little later that there is none
         return
     scenario = replace(draft, robots=None, random_count=None).complete()
+    if draft.has_slowness:
+        raise wrong_use(f"--{'straight' if straight else 'certificate'} needs robots that are all as fast")
     if certificate:
         from trihex.optimum import check_certifiable
 

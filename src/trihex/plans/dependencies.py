@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from trihex.areas import check_as_fast
 from trihex.errors import PlanError, check_type
 from trihex.kernels.codes import WAIT
 from trihex.plans.plan import Plan
@@ -127,6 +128,7 @@ def make_dependencies(plan: Plan) -> Dependencies:
            [0, 2, 1, 2]]))
     """
     check_type("plan", plan, Plan)
+    check_as_fast(plan.scenario, "an order of who waits for whom")
     if plan.jumps.size:
         raise PlanError("a plan in which robots jump has no dependencies")
     if plan.scenario.has_flows:

@@ -87,6 +87,7 @@ def lost_in_letters(scenario: Scenario) -> list[str]:
         if getattr(scenario, name) != getattr(plain, name)
     ]
     lost += ["start times"] if scenario.has_start_times else []
+    lost += ["slowness"] if scenario.has_slowness else []
     return [*lost, *(["a frame in metres"] if scenario.area.frame else [])]
 
 
