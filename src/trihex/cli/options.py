@@ -147,7 +147,7 @@ def robot_options(command: Command) -> Command:
             type=PATH,
             metavar="FILE",
             help="CSV of their cells, header x,y, or places, header x_metres,y_metres, and perhaps when they begin to "
-            "move, start; or a MovingAI .scen.",
+            "move, start, and how fast they are, speed or slowness; or a MovingAI .scen.",
         ),
         click.option(
             "--robots", type=Whole(0), help="How many robots to draw at random, or to take from --starts, the first."
