@@ -75,7 +75,7 @@ def test_robots_that_cannot_arrive_or_have_arrived_cost_nothing():
 
 def test_throats_part_a_destination_from_all_outside(monkeypatch):
     found = 0
-    for seed in range(swept(300, 25)):
+    for seed in range(swept(40, 20)):
         monkeypatch.setattr(throats, "_RADIUS", 1 + seed % 4)
         scenario = replace(with_destinations(seed, sides=(6, 12)), crossing="allow")
         demand, rules, area = make_demand(th.make_n_scheme(scenario)), Rules(scenario), scenario.area
@@ -103,7 +103,7 @@ def test_throats_part_a_destination_from_all_outside(monkeypatch):
 
 def test_no_queue_bound_exceeds_the_least_flow(monkeypatch):
     gained = 0
-    for seed in range(swept(600, 8)):
+    for seed in range(swept(10, 5)):
         scenario = with_destinations(seed, sides=(4, 6), most_filled=0.7, most_robots=20)
         scenario = with_start_times(scenario, seed) if seed % 4 == 1 else scenario
         scenario = with_random_doors(scenario) if seed % 4 == 2 else scenario
@@ -147,7 +147,7 @@ def paid(demand, approaches, is_inside, tolls):
 
 def test_the_tolls_are_the_best_there_are_and_none_prove_too_much():
     held_up = 0
-    for seed in range(swept(200, 20)):
+    for seed in range(swept(40, 20)):
         demand, approaches, is_inside, places = queues(seed)
         if demand.sites.size == 0 or is_inside.any():
             continue

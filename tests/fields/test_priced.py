@@ -55,9 +55,9 @@ def test_distances_and_directions_are_those_of_the_cheapest_way_and_price(seed):
 def test_distances_to_some_destinations_lead_round_the_others(seed):
     scenario = random_scenario(150_000 + seed, sides=(2, 9))
     field = priced_field(scenario)
-    for door in range(scenario.destinations.size):
-        distance, known = field.spread(np.array([door]), np.array([0]))
-        prices = [0 if i == door else NOT_REACHED for i in range(scenario.destinations.size)]
+    for exit in range(scenario.destinations.size):
+        distance, known = field.spread(np.array([exit]), np.array([0]))
+        prices = [0 if i == exit else NOT_REACHED for i in range(scenario.destinations.size)]
         cost, others, _ = costs(scenario, prices)
         at = scenario.area.layout.cells_of(distance)
         assert known == NOT_REACHED

@@ -55,3 +55,15 @@ def test_a_door_may_be_blocked_and_an_exit_closed_meanwhile():
         assert all(one.is_accepted for one in run.occurrences)
         last = run.arrival_step_of_robot.max()
         assert last >= 6 * 3  # with one exit closed two thirds of the flow are left
+
+
+def test_robots_that_do_not_know_the_walls_keep_the_turns_of_doors():
+    """Nobody can enter the second cell of the exit, which has walls around it; so the first one lets in all."""
+    area = th.Area("square", [[0, 0, 0, 0, 0, 0, 1], [1, 1, 1, 1, 1, 0, 0], [0, 0, 0, 0, 1, 1, 1]])
+    exits = [12, 13]
+    scenario = th.Scenario(area, exits, [0, 1, 2, 3], corners="no-cut", doors=[(exits, "1/2")])
+    assert scenario.schedule.cells.tolist() == [12]
+    for planner in ("greedy", "fcost"):
+        run = Trial(scenario, sensor=1, planner=planner).run()
+        assert audit_run(run).is_clean and run.arrived.all()
+        assert np.diff(np.sort(run.arrival_step_of_robot)).tolist() == [2, 2, 2]

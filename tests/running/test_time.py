@@ -59,6 +59,21 @@ def test_every_run_ends_safely_and_leaves_nobody_behind(share, time):
             assert np.array_equal(run.time_of_robot[run.arrived], (run.ended - run.joined)[run.arrived]), seed
 
 
+def test_robots_that_are_entering_the_last_destination_end_their_move_though_it_closes():
+    """There is nothing to be planned for anybody then."""
+    run = random_trial(220, ("costs", "allow"), sides=(3, 10)).run()
+    assert audit_run(run).is_clean
+    assert breaches(run) == []
+
+
+def test_a_robot_may_join_where_another_begins_to_come_at_once():
+    """Who joins goes on in the same tick, and the other one follows it."""
+    run = random_trial(291, ("costs", "allow"), sides=(3, 10)).run()
+    assert [(one.event.kind, one.event.step, one.is_accepted) for one in run.occurrences[:1]] == [("join", 1, True)]
+    assert audit_run(run).conflicts == ()
+    assert breaches(run) == []
+
+
 @pytest.mark.parametrize("time", TIMES[1:])
 def test_a_run_that_stops_between_centres_goes_on_as_if_it_had_not(time, tmp_path):
     for seed in range(1, swept(60, 12)):

@@ -89,7 +89,7 @@ class FairPricing:
 
     def tolls(self) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
         """Return node, step in which it is passed, and toll, of all that have one."""
-        from trihex.optimum.kernels.prices import ENTERING, LEAVING
+        from trihex.optimum.kernels.fair import ENTERING, LEAVING
 
         network, first = self.network, self.network.first_destination
         at = np.flatnonzero(self.fair.words)
@@ -103,7 +103,7 @@ class FairPricing:
 
     def proven(self, toll: NDArray[np.int64], places: NDArray[np.int64]) -> int:
         """Return what no plan can be below if that many robots may pay each toll."""
-        from trihex.optimum.kernels.prices import LEAVING
+        from trihex.optimum.kernels.fair import LEAVING
 
         price = self.fair.price.reshape(-1, 2)[self.start, LEAVING].astype(np.int64)
         pays = int((price + self.network.value[self.cells]).sum()) * self.network.unit

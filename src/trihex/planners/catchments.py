@@ -1,4 +1,4 @@
-"""Catchments: which cells lead to which door, so that nobody waits at one while another is free."""
+"""Catchments: which cells lead to which exit, so that nobody waits at one while another is free."""
 
 from __future__ import annotations
 
@@ -15,33 +15,33 @@ from trihex.planners.crowd import Crowd, make_ways
 from trihex.planners.lanes import Lanes, make_lanes, price_of_waiting
 from trihex.record import read_only
 
-# Destinations no more than so many columns and rows apart are one door: robots choose between them on the spot.
+# Destinations no more than so many columns and rows apart are one exit: robots choose between them on the spot.
 _NEAR = 3
 # Prices change by so many edge steps, one after the other; so often in each.
 _STEPS, _ROUNDS = (8, 4, 2, 1), 10
-# A door lets a robot pass at least every so many steps.
+# An exit lets a robot pass at least every so many steps.
 _SLOWEST = 16
 # After so many robots in turn that get no lane nobody behind them in the catchment is tried.
 _PATIENCE = 20
 
 
-def doors_of(scenario: Scenario) -> NDArray[np.int64]:
-    """Return the door, from 0 without gaps, to which each destination belongs: those that are near each other."""
+def exits_of(scenario: Scenario) -> NDArray[np.int64]:
+    """Return the exit, from 0 without gaps, to which each destination belongs: those that are near each other."""
     y, x = scenario.destinations // scenario.area.width, scenario.destinations % scenario.area.width
     is_near = np.maximum(np.abs(x[:, None] - x), np.abs(y[:, None] - y)) <= _NEAR
-    door, before = np.arange(x.size), np.empty(0, dtype=np.int64)
-    while not np.array_equal(door, before):
-        before, door = door, np.where(is_near, door, x.size).min(axis=1)
-    return np.unique(door, return_inverse=True)[1].reshape(-1).astype(np.int64)
+    exit, before = np.arange(x.size), np.empty(0, dtype=np.int64)
+    while not np.array_equal(exit, before):
+        before, exit = exit, np.where(is_near, exit, x.size).min(axis=1)
+    return np.unique(exit, return_inverse=True)[1].reshape(-1).astype(np.int64)
 
 
 class Catchments:
-    """Which cells lead to which door.
+    """Which cells lead to which exit.
 
-    By distance alone robots wait at one door while another is free. So each door gets a *price*, and robots go where
-    price and distance together are least. A door is taken to let one robot pass after the other, so often that those of
-    its catchment would have arrived when they did in a plan; prices are changed, door by door, as long as robots would
-    arrive sooner by that, all together.
+    By distance alone robots wait at one exit while another is free. So each exit gets a *price*, and robots go where
+    price and distance together are least. An exit is taken to let one robot pass after the other, so often that those
+    of its catchment would have arrived when they did in a plan; prices are changed, exit by exit, as long as robots
+    would arrive sooner by that, all together.
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ class Catchments:
     def __init__(self, d_scheme: DScheme, crowd: Crowd) -> None:
         self.n_scheme, scenario = d_scheme.n_scheme, d_scheme.n_scheme.scenario
         n_scheme = self.n_scheme
-        self.door = doors_of(scenario)
+        self.exit = exits_of(scenario)
         self._field = PricedField(scenario, n_scheme.distance_of_site != NOT_REACHED)
         self._starts = scenario.area.layout.cell_to_site(scenario.robots[crowd.robot[1:]])
         self._edge = int(scenario.area.tessellation.cost_of_direction[0])
@@ -67,54 +67,54 @@ class Catchments:
         self._shares = self._make_shares(arrival)
 
     def _catchment_of_site(self, sites: NDArray[np.int32], directions: NDArray[np.uint16]) -> NDArray[np.int32]:
-        """Return the door to which first best directions lead from some sites; what is on no way is -1."""
+        """Return the exit to which first best directions lead from some sites; what is on no way is -1."""
         from trihex.planners.kernels.catchments import fill_catchments
 
         catchment = np.full(directions.size, -1, dtype=np.int32)
-        catchment[self._field.goals] = self.door
+        catchment[self._field.goals] = self.exit
         fill_catchments(sites, directions, make_ways(self.n_scheme.scenario), catchment)
         return catchment
 
     def _make_offers(self, own: NDArray[np.int32], slack: int) -> Any:
-        """Return the doors that are at most so much farther than the nearest one, as kernels know them.
+        """Return the exits that are at most so much farther than the nearest one, as kernels know them.
 
-        Nobody is offered a door that is farther than that from all robots of its `own`.
+        Nobody is offered an exit that is farther than that from all robots of its `own`.
         """
         from trihex.kernels.signatures import given
         from trihex.planners.kernels.catchments import Offers
 
         near, found = self.n_scheme.distance_of_site[self._starts], []
-        for door in range(self.door.max() + 1):
-            chosen = np.flatnonzero(self.door == door)
-            horizon = int(near[own == door].max(initial=0)) + slack
+        for exit in range(self.exit.max() + 1):
+            chosen = np.flatnonzero(self.exit == exit)
+            horizon = int(near[own == exit].max(initial=0)) + slack
             distance, known = self._field.spread(chosen, np.zeros(chosen.size, dtype=np.int64), horizon)
             far = distance[self._starts]
             robots = np.flatnonzero((far < known) & (far <= near + slack))
-            found.append((robots, np.full(robots.size, door), far[robots]))
-        robot, of_door, distance = map(np.concatenate, zip(*found, strict=True))
+            found.append((robots, np.full(robots.size, exit), far[robots]))
+        robot, of_exit, distance = map(np.concatenate, zip(*found, strict=True))
         order = np.argsort(robot, kind="stable")
-        robot, of_door, distance = robot[order], of_door[order], distance[order]
+        robot, of_exit, distance = robot[order], of_exit[order], distance[order]
         first = np.searchsorted(robot, np.arange(self._starts.size + 1)).astype(np.int64)
         several = np.flatnonzero(np.diff(first)[robot] > 1)  # who has one offer only takes it at any price
-        count = np.bincount(of_door[several], minlength=self.door.max() + 1)
+        count = np.bincount(of_exit[several], minlength=self.exit.max() + 1)
         return given(
             Offers,
             first=first,
-            door=of_door.astype(np.int32),
+            exit=of_exit.astype(np.int32),
             distance=distance.astype(np.int64),
             steps=np.maximum(1, (distance + self._step // 2) // self._step).astype(np.int32),
             robot=robot.astype(np.int32),
-            first_of_door=np.append(0, np.cumsum(count)).astype(np.int64),
-            of_door=several[np.argsort(of_door[several], kind="stable")].astype(np.int64),
+            first_of_exit=np.append(0, np.cumsum(count)).astype(np.int64),
+            of_exit=several[np.argsort(of_exit[several], kind="stable")].astype(np.int64),
         )
 
     def _make_shares(self, arrival: NDArray[np.int64]) -> Any:
-        """Return who goes where without prices, and how often each door lets somebody pass, as kernels know it."""
+        """Return who goes where without prices, and how often each exit lets somebody pass, as kernels know it."""
         from trihex.kernels.signatures import given
         from trihex.planners.kernels import catchments as kernels
 
-        offers, count = self._offers, int(self.door.max()) + 1
-        nearest = np.lexsort((offers.door, offers.distance, offers.robot))[offers.first[:-1]]
+        offers, count = self._offers, int(self.exit.max()) + 1
+        nearest = np.lexsort((offers.exit, offers.distance, offers.robot))[offers.first[:-1]]
         shares = given(
             kernels.Shares,
             price=np.zeros(count, dtype=np.int64),
@@ -127,10 +127,10 @@ class Catchments:
             is_touched=np.zeros(count, dtype=np.int32),
             waiting_cost=price_of_waiting(self.n_scheme.scenario),
         )
-        np.add.at(shares.count, (offers.door[nearest], offers.steps[nearest]), 1)
+        np.add.at(shares.count, (offers.exit[nearest], offers.steps[nearest]), 1)
         wanted = np.zeros(count, dtype=np.int64)
-        np.add.at(wanted, offers.door[nearest], kernels.PARTS * arrival)
-        least = kernels.PARTS // np.maximum(1, self._field.entries(self.door))
+        np.add.at(wanted, offers.exit[nearest], kernels.PARTS * arrival)
+        least = kernels.PARTS // np.maximum(1, self._field.entries(self.exit))
         kernels.find_gaps(wanted, least, _SLOWEST * kernels.PARTS, shares)
         return shares
 
@@ -143,15 +143,15 @@ class Catchments:
                 if not kernels.change_prices(step * self._edge, self._offers, self._shares):
                     break
         price = self._shares.price - self._shares.price.min()
-        return np.asarray(price[self.door])
+        return np.asarray(price[self.exit])
 
     def make_lanes(self, most_visits: int) -> tuple[Lanes, int]:
-        """Return lanes, each within a catchment, and what robots are told to pay for doors beside their ways."""
+        """Return lanes, each within a catchment, and what robots are told to pay for exits beside their ways."""
         price = self.find_prices()
         distance, directions = self._field.directions(price)
         catchment = self._catchment_of_site(np.flatnonzero(directions).astype(np.int32), directions)
         priced = replace(self.n_scheme, distance_of_site=read_only(distance))
         lanes = make_lanes(priced, most_visits=most_visits, catchment_of_site=catchment, patience=_PATIENCE)
-        paid = np.zeros(int(self.door.max()) + 1, dtype=np.int64)
-        paid[self.door] = price
+        paid = np.zeros(int(self.exit.max()) + 1, dtype=np.int64)
+        paid[self.exit] = price
         return lanes, int(paid[catchment[self._starts]].sum())

@@ -6,7 +6,7 @@ import numpy as np
 
 from trihex.errors import PlanError, check_choice
 from trihex.fields import DScheme, NScheme, make_d_scheme
-from trihex.planners.catchments import Catchments, doors_of
+from trihex.planners.catchments import Catchments, exits_of
 from trihex.planners.crowd import count_going, make_crowd
 from trihex.planners.greedy import run_greedy
 from trihex.planners.lanes import Lanes, make_lanes, price_of_waiting
@@ -21,7 +21,7 @@ RULES = ("best", "paper", "queue", "aside", "lanes")
 _FEW, _SPARSE = 2_000_000, 32
 # Looking for lanes may take about as long as planning does: so many nodes, and one for every fourth robot-step.
 _VISITS = 50_000
-# Doors get prices where robots lose more than such a part of the time, among so many destinations at most.
+# Exits get prices where robots lose more than such a part of the time, among so many destinations at most.
 _WORTH, _MOST_DESTINATIONS = 0.03, 1000
 # Lanes without prices are then not looked for where so many robot-steps take no more than so many times the distances.
 _LARGE, _ENOUGH = 100_000, 1.08
@@ -47,7 +47,8 @@ def plan_fcost(n_scheme: NScheme, *, rule: str = "best", progress: Progress | No
         robot that would wait may step to a cell no farther away if that costs no more. "aside": the same, and a blocked
         robot always steps to such a cell unless it has just left it. "lanes": the same, and V is not the least distance
         but that along lanes, as many as there is room for, see `trihex.planners.lanes`. "best": "aside" or greedy
-        descent, whichever takes less total time, and "lanes", too, where to look for them takes no longer than to plan.
+        descent, whichever takes less total time, and "lanes", too, where to look for them takes no longer than to plan;
+        with several exits also lanes within the catchment of each, see `trihex.planners.catchments`.
     progress : callable, optional
         Called with (robots arrived, robots that can arrive), of one rule after the other.
     """
@@ -102,15 +103,12 @@ def _run(n_scheme: NScheme, rule: str, keeps_actions: bool, progress: Progress |
 
 
 def _shared(d_scheme: DScheme, first: Recording, most_visits: int) -> tuple[Lanes, int] | None:
-    """Return lanes within catchments, and what doors are said to cost; None where nobody had better go elsewhere."""
+    """Return lanes within catchments, and what exits are said to cost; None where nobody had better go elsewhere."""
     scenario = d_scheme.n_scheme.scenario
-    if (
-        not scenario.is_stepwise
-        or scenario.waiting_cost == 0
-        or not 1 < scenario.destinations.size <= _MOST_DESTINATIONS
-    ):
+    is_told = scenario.moves_by_steps and scenario.waiting_cost > 0  # by arrivals, how many an exit lets in
+    if not is_told or not 1 < scenario.destinations.size <= _MOST_DESTINATIONS:
         return None
-    if first.lost <= _WORTH * first.total_time or doors_of(scenario).max() == 0:
+    if first.lost <= _WORTH * first.total_time or exits_of(scenario).max() == 0:
         return None
     return Catchments(d_scheme, first.crowd).make_lanes(most_visits)
 

@@ -100,7 +100,7 @@ def make_lanes(
     renew_directions(scenario, np.concatenate([goals, sites]), scenario.moves, along, directions)
     directions[sites] = direction[sites]
     directions[goals] = 0
-    along[goals] = 0  # only now: what has been paid for a door is no way
+    along[goals] = 0  # only now: what has been paid for an exit is no way
     return Lanes(forest, DScheme(forest, read_only(directions)), read_only(sites))
 
 

@@ -294,7 +294,7 @@ class Execution:
         """
         is_late, can_go = self._is_late(late), self._can_go()
         planned = None
-        if self.replanner is not None and can_go.any():
+        if self.replanner is not None and can_go.any() and self.field.destinations:
             planned = self.replanner.step(self.steps_done + 1, self._world, is_late, self.fleet.is_under_way)
         if planned is not None:
             return self._follow(*planned)

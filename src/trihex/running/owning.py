@@ -230,9 +230,10 @@ def judge_events(run: Run, moves: list[Move]) -> Iterator[Conflict]:
         count += event.kind == "join"
         wanted = [int(run.robots[own])] if event.kind == "join" and own is not None else list(one.blocked)
         for cell in wanted:
+            # Who starts here at this moment is there; who begins to come at it comes after the event.
+            starts = [stay for stay in stays[cell] if stay.begin == at == 2 * int(run.joined[stay.robot])]
             for stay in (*stays[cell], *coming[cell]):
-                is_there = stay.begin < at < stay.end
-                is_there |= stay.begin == at < stay.end and stay.begin == 2 * int(run.joined[stay.robot])
+                is_there = stay.begin < at < stay.end or (stay in starts and at < stay.end)
                 excused = stay.is_entry if event.kind == "join" else event.kind == "break" and stay.leaves < at
                 if is_there and not excused and stay.robot != own and stay.robot < count:
                     text = f"event {event.kind!r} at {area.name_of_cell(cell)}, which is robot {stay.robot}'s"

@@ -284,9 +284,11 @@ class Trial:
 
 
 def _unknown(scenario: Scenario) -> Scenario:
-    """Return the scenario as robots know it at the beginning: free everywhere."""
-    area = scenario.area
-    return replace(scenario, area=Area(area.tessellation, np.zeros_like(area.barriers), area.name, area.frame))
+    """Return the scenario as robots know it at the beginning: free everywhere, but doors are as they are."""
+    area, turns = scenario.area, scenario.schedule.cells
+    doors = tuple(replace(door, cells=np.intersect1d(door.cells, turns)) for door in scenario.doors)
+    free = Area(area.tessellation, np.zeros_like(area.barriers), area.name, area.frame)
+    return replace(scenario, area=free, doors=doors)
 
 
 def resume_trial(run: Run, events: Iterable[Event] = (), **options: Any) -> Trial:

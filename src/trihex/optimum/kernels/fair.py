@@ -1,9 +1,10 @@
 """Fair prices of a flow that is given: the least that are, or that there are none, as it is not of least cost.
 
-A node that carries flow has two sides, as in `prices`; a price is fair where no residual arc costs less than the
-difference of the prices at its ends. At first all are 0, but those of each path: what it still costs beyond the values
-of its nodes. Then what is too low is raised, in turn. A node where a robot can go to a destination
-along free nodes must keep its 0: where that would rise, another flow costs less.
+A node that carries flow has two sides: whoever *enters* it goes back to where its flow came from; whoever has been
+turned back to it *leaves* it by another arc, or goes back further. A node that is free is only entered. A price is fair
+where no residual arc costs less than the difference of the prices at its ends. At first all are 0, but those of each
+path: what it still costs beyond the values of its nodes. Then what is too low is raised, in turn. Where a robot can go
+to a destination along free nodes the price must stay 0: if that would rise, another flow costs less.
 """
 
 from typing import NamedTuple
@@ -12,11 +13,12 @@ from numba import types
 
 from trihex.kernels.signatures import HELPER, IN_I64, OUT_BOOL, OUT_I32, OUT_I64, declared, kernel
 from trihex.optimum.kernels.flow_byte import arc_in, arc_out, is_start
-from trihex.optimum.kernels.prices import ENTERING, LEAVING
 from trihex.optimum.kernels.residual import BUDGET_SPENT, DONE, EXHAUSTED, LIST_FULL, LOG, OFFSET, REDUCED
 from trihex.optimum.kernels.slots import SLOT_GRAPH
 from trihex.optimum.kernels.words import FLOW, WORDS, comes_by
 
+# Sides of a node: 2 * its index, plus
+ENTERING, LEAVING = 0, 1
 # Entries of the state: sides in the first queue and in the second, which of the two is filled and which side of the
 # other one is next; whether what must not rise would have to.
 FIRST, SECOND, FILLED, NEXT, UNFAIR = range(5)

@@ -1,6 +1,6 @@
-"""What `fcost` gains where robots share many doors: gaps to the optimum, and CPU seconds, on large random areas.
+"""What `fcost` gains where robots share many exits: gaps to the optimum, and CPU seconds, on large random areas.
 
-python -m benchmarks doors; `--seeds 1 2` for more of them, `--largest` for 1024 x 1024 cells with 50 destinations and
+python -m benchmarks exits; `--seeds 1 2` for more of them, `--largest` for 1024 x 1024 cells with 50 destinations and
 20 000 robots as well. Where the optimum would take too much memory the bound stands in its place.
 """
 
@@ -56,13 +56,13 @@ def print_row(case: Case, tessellation: str, density: float, seed: int) -> None:
 
 
 def main(options: list[str]) -> None:
-    parser = argparse.ArgumentParser(prog="python -m benchmarks doors", description=__doc__)
+    parser = argparse.ArgumentParser(prog="python -m benchmarks exits", description=__doc__)
     parser.add_argument("--seeds", nargs="*", type=int, default=[1])
     parser.add_argument("--densities", nargs="*", type=float, default=[0.1, 0.2])
     parser.add_argument("--largest", action="store_true")
     chosen = parser.parse_args(options)
     print(machine())
-    print("                                                            gap, %: doors        CPU s: doors")
+    print("                                                            gap, %: exits        CPU s: exits")
     print("tessellation  side  density  seed       least of           alone  shared     alone  shared")
     for case in CASES + LARGEST * chosen.largest:
         for tessellation in ("hexagonal", "triangular"):
