@@ -31,6 +31,7 @@ def test_nobody_is_faster_than_its_speed_and_whole_parts_are_whole(speeds, faste
     [
         ([1, 0], None, r"speeds\[1\] must be a number above 0, not 0"),
         ([1, float("nan")], None, r"speeds\[1\] must be a number above 0, not nan"),
+        (3.5, None, "speeds must be numbers in a list, one for each robot, not 3.5"),
         (["quick"], None, "speeds must be numbers above 0, not"),
         ([1], -2, "fastest must be a number above 0, not -2"),
     ],
@@ -43,7 +44,7 @@ def test_what_is_no_speed_is_refused(speeds, fastest, message):
 @pytest.mark.parametrize(
     ("slowness", "message"),
     [
-        ([1], "slowness must be one for each of 2 robots, not 1"),
+        ([3], "slowness must be one for each of 2 robots, not 1"),
         ([1, 0], r"slowness\[1\] must be a whole number from 1 to 30: no move may last longer than 30 ticks, not 0"),
         ([1, 31], r"slowness\[1\] must be a whole number from 1 to 30: .* not 31"),
         ([1, 1.5], r"slowness must be whole numbers, one for each robot, not \[1, 1.5\]"),
@@ -67,6 +68,7 @@ def test_it_is_of_each_robot_and_told_in_words():
     assert fast.is_stepwise and not slow.is_stepwise and slow.has_slowness and not fast.has_slowness
     assert th.Scenario(AREA, (3, 2), [(0, 0), (1, 0)], slowness=2).slowness.tolist() == [2, 2]
     assert replace(fast, slowness=[1, 1]) == fast
+    assert replace(fast, robots=[(2, 2)], start_times=()).slowness.tolist() == [1]
     assert slow.with_robots([(2, 2)]).slowness.tolist() == [1]
 
 

@@ -41,10 +41,12 @@ def slowness_of(speeds: ArrayLike, *, fastest: float | None = None) -> NDArray[n
     [2, 3]
     """
     try:
-        own = np.asarray(speeds, dtype=np.float64).reshape(-1)
+        own = np.asarray(speeds, dtype=np.float64)
         top = float(own.max(initial=0.0) if fastest is None else fastest)
     except (TypeError, ValueError):
         raise ScenarioError(f"speeds must be numbers above 0, not {short(speeds)}") from None
+    if own.ndim != 1:
+        raise ScenarioError(f"speeds must be numbers in a list, one for each robot, not {short(speeds)}")
     wrong = np.flatnonzero(~((own > 0) & (own < np.inf)))
     if wrong.size:
         raise ScenarioError(f"speeds[{wrong[0]}] must be a number above 0, not {own[wrong[0]]:g}")
@@ -66,6 +68,8 @@ def make_slowness(given: Any, count: int, longest: int) -> NDArray[np.int64]:
         return np.ones(count, dtype=np.int64)
     if slowness.dtype.kind not in "iu" or slowness.ndim != 1:
         raise ScenarioError(f"slowness must be whole numbers, one for each robot, not {short(given)}")
+    if slowness.size != count and (slowness == 1).all():  # what is usual, of a scenario that has other robots now
+        return np.ones(count, dtype=np.int64)
     if slowness.size != count:
         raise ScenarioError(f"slowness must be one for each of {counted(count, 'robot')}, not {slowness.size}")
     most = LONGEST_MOVE // longest

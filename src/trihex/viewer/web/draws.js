@@ -67,7 +67,8 @@ export class Draws {
     app.leaveLive();
     const { doc } = app, count = Number(chosenIn(this.count)), seed = Number(chosenIn(this.seed));
     const robots = await app.make(this.#robots(count, seed));
-    if (robots && app.doc === doc) app.change({ robots, header: { ...doc.header, seed, start_times: null, slowness: null } });
+    const drawn = { seed, start_times: null, slowness: null };
+    if (robots && app.doc === doc) app.change({ robots, header: { ...doc.header, ...drawn } });
   }
 
   async #made(wish) {
