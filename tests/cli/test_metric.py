@@ -145,6 +145,40 @@ def test_a_place_becomes_an_area_in_a_file_of_its_own(house, tmp_path):
     assert done.exit_code == 0 and "5 of 5 robots arrive" in done.output
 
 
+DOORS = """{"type": "FeatureCollection", "features": [
+  {"type": "Feature", "properties": {"kind": "free"}, "geometry":
+    {"type": "Polygon", "coordinates": [[[0, 0], [6, 0], [6, 2], [0, 2], [0, 0]]]}},
+  {"type": "Feature", "properties": {"kind": "KIND", "name": "east", "capacity": "0.6/s"}, "geometry":
+    {"type": "LineString", "coordinates": [[AT, 0], [AT, 2]]}}]}"""
+
+
+def test_flows_a_second_are_judged_at_the_speed_of_the_plan(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "a.geojson").write_text(DOORS.replace("KIND", "destination").replace("AT", "6"))
+    size = ["a.geojson", "--cell-size", "0.5"]
+    assert run("plan", *size, "--robots", 8, "--speed", 0.5, "--out", "p.csv").exit_code == 0
+    done = run("check", "p.csv", *size, "--speed", 0.5)
+    assert done.exit_code == 0 and "safe: no conflicts" in done.output
+    assert run("check", "p.csv", *size).exit_code == 1  # at 1 metre in a second half as many a step
+    for speed, status in (((), 1), (("--speed", 0.5), 0)):
+        assert run("convert", "p.csv", "p.npz", "--area", *size, *speed).exit_code == 0
+        assert run("check", "p.npz").exit_code == status
+    summary = run("check", "p.npz", "--capacity", "east=0.6/s", "--speed", 0.5, "--summary", "-")
+    assert '"east": "0.6/s"' in summary.output and '"conflicts": 0' in summary.output
+
+
+def test_doors_that_cannot_be_carried_are_refused_not_dropped(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "a.geojson").write_text(DOORS.replace("KIND", "door").replace("AT", "3"))
+    refused = run("convert", "a.geojson", "a.toml", "--cell-size", 0.5)
+    assert refused.exit_code == 2 and not (tmp_path / "a.toml").exists()
+    assert "an area without destinations cannot carry doors with a flow, as a.geojson has" in refused.output
+    doors = "[[doors]]\ncells = [[1, 0]]\ncapacity = 0.5\n"
+    (tmp_path / "s.toml").write_text('destinations = [[0, 0]]\n[area]\nrows = ["..."]\n' + doors)
+    refused = run("convert", "s.toml", "s.txt")
+    assert refused.exit_code == 2 and "letters cannot carry doors with a flow, as s.toml has" in refused.output
+
+
 def test_starts_of_scen_become_csv(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "a.map").write_text("type octile\nheight 1\nwidth 4\nmap\n....\n")
@@ -213,3 +247,44 @@ def test_all_that_is_written_of_a_plan_is_in_ticks_by_the_clock_costs(house, tmp
         assert done.exit_code == 2 and message in done.output and len(done.output.strip().splitlines()) <= 3, (
             done.output
         )
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (
+            ["plan", "--out", "p.dependencies.json"],
+            "dependencies tell who waits for whom, not for how long: doors must",
+        ),
+        (["plan", "--out", "p.vda5050.json"], "dependencies tell who waits for whom, not for how long: doors must"),
+        (
+            ["run", "--replan"],
+            "planner must be greedy or fcost, without replan, where doors have a flow, not 'fcost' wi",
+        ),
+        (
+            ["run", "--planner", "astar"],
+            "planner must be greedy or fcost, without replan, where doors have a flow, not",
+        ),
+    ],
+)
+def test_what_doors_forbid_is_told_before_anything_is_planned(arguments, told, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "a.geojson").write_text(DOORS.replace("KIND", "destination").replace("AT", "6"))
+    for name in ("trihex.planners.make_plan", "trihex.running.Trial.__init__", "trihex.kernels.preparing.prepare"):
+        monkeypatch.setattr(name, lambda *_, **__: pytest.fail("the work has begun"))
+    command, *options = arguments
+    done = run(command, "a.geojson", "--cell-size", "0.5", "--robots", 3, *options)
+    assert done.exit_code == 2 and told in done.output and "\n" not in done.output.strip()
+    assert [path.name for path in tmp_path.iterdir()] == ["a.geojson"]
+
+
+def test_the_order_of_a_plan_is_written_by_plan_and_by_convert_alike(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "a.map").write_text("type octile\nheight 1\nwidth 5\nmap\n.....\n")
+    place = ["a.map", "--destination", "4,0", "--robots", 3]
+    assert run("plan", *place, "--out", "p.npz").exit_code == 0
+    assert run("plan", *place, "--speed", 0.5, "--out", "p.dependencies.json").exit_code == 0
+    assert run("convert", "p.npz", "c.dependencies.json", "--speed", 0.5).exit_code == 0
+    assert (tmp_path / "p.dependencies.json").read_bytes() == (tmp_path / "c.dependencies.json").read_bytes()
+    refused = run("plan", *place, "--out", "p.vda5050.json")
+    assert refused.exit_code == 2 and "--out p.vda5050.json is in metres: add --cell-size" in refused.output

@@ -62,6 +62,7 @@ def test_in_metres_waypoints_keep_to_each_speed():
         (["plan", "--straight"], "--straight needs robots that are all as fast"),
         (["plan", "--planner", "optimal", "--certificate", "c.csv"], "--certificate needs robots that are all as fast"),
         (["plan", "--planner-option", "rule=paper"], "rule must not be 'paper' where robots have slowness"),
+        (["plan", "--out", "o.dependencies.json"], "--out needs robots that are all as fast for an order of who waits"),
         (["run"], "an execution needs robots that are all as fast, without slowness"),
         (["prices"], "needs robots that are all as fast, without slowness"),
     ],

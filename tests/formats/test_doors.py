@@ -24,6 +24,44 @@ def test_doors_come_back_as_they_were(seed, tmp_path):
     assert draft_of(scenario).complete() == scenario
 
 
+@pytest.mark.parametrize("seed", range(8))
+def test_doors_of_runs_come_back_as_they_were(seed, tmp_path):
+    scenario = with_random_doors(random_scenario(seed, sides=(2, 6), waiting_costs=(None,)))
+    run = th.Trial(scenario, planner="greedy", seed=seed).run()
+    th.write_run(run, tmp_path / "run.npz")
+    again = th.read_run(tmp_path / "run.npz")
+    assert again == run and again.scenario.doors == scenario.doors
+    assert again.scenario.destination_capacity == scenario.destination_capacity
+
+
+@pytest.mark.parametrize("suffix", ["csv", "parquet"])
+def test_tables_of_plans_are_read_beside_the_scenario_with_its_doors(suffix, tmp_path):
+    scenario = th.Scenario(
+        th.Area("square", [[0, 0, 0, 0]]), [3], [0, 1], doors=[([2], "1/2")], destination_capacity="1/3"
+    )
+    plan = make_plan(scenario)
+    th.write_plan(plan, tmp_path / f"plan.{suffix}")
+    th.write_scenario(scenario, tmp_path / "s.toml")
+    again = th.read_plan(tmp_path / f"plan.{suffix}", th.read_scenario(tmp_path / "s.toml"))
+    assert np.array_equal(again.actions, plan.actions) and th.audit_plan(again).is_clean
+    assert again.scenario.doors == scenario.doors
+    assert again.scenario.destination_capacity == scenario.destination_capacity
+
+
+def test_a_door_keeps_its_name_though_a_barrier_is_in_its_zone(tmp_path):
+    area = th.Area("square", [[0, 0, 0, 1]], zones=[th.Zone("west", [0, 3])])
+    scenario = th.Scenario(area, [2], [1], doors={"west": "1/2"})
+    th.write_scenario(scenario, tmp_path / "s.toml")
+    assert th.read_scenario(tmp_path / "s.toml").doors == scenario.doors
+    assert draft_of(scenario).complete() == scenario
+
+
+@pytest.mark.parametrize("name", ["a\nb", " ", "x" * 201, "\x00"])
+def test_names_of_doors_are_lines_that_files_can_hold(name):
+    with pytest.raises(th.ScenarioError, match="name of a door must be a line of 1 to 200 characters, or empty, not"):
+        th.Door([1], 1, name)
+
+
 def test_a_plan_without_flows_has_no_entries_of_doors(tmp_path):
     scenario = th.Scenario(th.Area("square", [[0, 0, 0]]), [0], [2], destination_capacity=1)
     th.write_plan(make_plan(scenario), tmp_path / "plan.npz")

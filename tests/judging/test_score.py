@@ -99,6 +99,43 @@ def test_a_door_holds_up_the_bound_and_a_flow_more_so():
         np.testing.assert_array_equal(other.earliest, score.earliest)
 
 
+@pytest.mark.parametrize("seed", range(8))
+def test_plans_that_keep_the_flow_of_exits_lie_within_the_bound(tmp_path, seed):
+    """Robots of 0.8 m/s whose doors let in so many a second; the score has doors as persons a second again."""
+    rng = np.random.default_rng(seed)
+    scenario = in_metres(random_scenario(seed, sides=(3, 9), most_robots=20))
+    area, exits = scenario.area, rng.permutation(scenario.destinations)
+    cut = rng.integers(1, exits.size + 1)
+    told = [(own.tolist(), f"{rng.integers(2, 20) / 10}/s") for own in (exits[:cut], exits[cut:]) if own.size]
+    plan = th.make_plan(replace(scenario, doors=th.make_doors(area, told, speed=0.8)), "fcost")
+    plan = th.make_plan(plan.scenario.with_robots(plan.scenario.robots[plan.arrived]), "fcost")
+    if not plan.steps:
+        return
+    th.write_waypoints(plan, tmp_path / "t.sqlite", speed=0.8)
+    crowd = th.read_trajectories(tmp_path / "t.sqlite")
+    score = make_score(crowd, replace(plan.scenario, doors=th.make_doors(area, told)))
+    assert score.is_within and score.arrived.all()
+    assert score.flow == pytest.approx(sum(float(flow[:-2]) for _, flow in told), rel=1e-6)
+    assert (score.earliest >= make_score(crowd, scenario).earliest).all()
+
+
+def test_exits_let_out_what_each_of_them_does():
+    """Six beside three exits: one lets out 0.5 a second, the two others 1 together, if that is told."""
+    scenario = a_door(12)
+    scenario = replace(scenario.with_robots(()), destinations=[(0, 0), (1, 0), (2, 0)], doors=[((0, 0), "0.5/s")])
+    x, y = scenario.area.cell_to_metres(np.array([8, 9, 10, 16, 17, 18]))
+    crowd = Trajectories("t", 1.0, np.repeat(np.arange(6), 2), np.tile([0, 99], 6), np.repeat(x, 2), np.repeat(y, 2))
+    score = make_score(crowd, scenario, speed=1.0, flow=1.0)
+    np.testing.assert_allclose(score.earliest, [0, 0, 1, 2, 2, 3])
+    assert score.flow == 1.5 and score.as_dict()["flows"] == {"(0, 0)": 0.5, "elsewhere": 1.0}
+    some = make_score(crowd, scenario, speed=1.0)  # the others let out any number
+    assert some.flow is None and some.flows == {"(0, 0)": 0.5} and not some.earliest.any()
+    every = replace(scenario, doors=[([0, 1, 2], "0.5/s")])
+    np.testing.assert_allclose(make_score(crowd, every, speed=1.0).earliest, 2.0 * np.arange(6))
+    with pytest.raises(th.ScenarioError, match="flow is of exits without a capacity, and all have one, so 1 cannot"):
+        make_score(crowd, every, speed=1.0, flow=1.0)
+
+
 FLOOR = shapely.union_all([shapely.box(0, 0, 10, 6), shapely.box(10, 2, 12, 4)]).difference(
     shapely.union_all([shapely.box(5, 0, 5.3, 2.4), shapely.box(5, 3.6, 5.3, 6)])
 )
@@ -173,6 +210,16 @@ def test_the_command_tells_it(tmp_path, monkeypatch):
     assert dense.exit_code == 2 and "t.sqlite: the crowd is denser than the cells: persons " in dense.output
     fits = dense.output.split("cell_size must be at most ")[1].split(" ")[0]
     assert CliRunner().invoke(main, [*command[:-1], fits]).exit_code == 0
+    assert "at most 9 persons leave in a second" in CliRunner().invoke(main, [*command, "--flow", "9"]).output
+    floor = json.loads(Path("floor.geojson").read_text())
+    floor["features"][1]["properties"] |= {"name": "east", "capacity": "0.5/s"}
+    Path("floor.geojson").write_text(json.dumps(floor))
+    few = CliRunner().invoke(main, command)
+    assert few.exit_code == 1 and "at most so many persons leave in a second: 0.5 by east" in few.output
+    both = CliRunner().invoke(main, [*command, "--flow", "2"])
+    assert both.exit_code == 2 and both.output.startswith("trihex: error: flow is of exits without a capacity")
+    # As many as leave: within.
+    assert CliRunner().invoke(main, [*command, "--capacity", "east=9/s"]).exit_code == 0
 
 
 def test_text_as_pedpy_reads_it(tmp_path):

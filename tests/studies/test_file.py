@@ -7,6 +7,7 @@ from trihex.formats import Draft
 from trihex.studies.case import run_case
 from trihex.studies.grid import Grid
 from trihex.studies.placing import place_destinations, place_robots
+from trihex.studies.results import write_results
 from trihex.studies.study import make_study
 
 SMALL = """
@@ -258,3 +259,52 @@ def test_robots_may_begin_later(tmp_path):
     assert late["total_time"] >= at_once["total_distance"] + 4 * 5 * 10 and rows[2]["total_waiting"] >= 40
     with pytest.raises(th.FormatError, match=r"robots.0.start_times.1: must be drawn as one of .*, not 'soon'"):
         th.read_study(written(tmp_path, text.replace("constant:5", "soon")))
+
+
+DOORS = """
+robots = 6
+destinations = "file"
+planners = "greedy"
+rules = {destination_capacity = ["1/2", 2, 0.4]}
+[[areas]]
+path = "row.toml"
+"""
+ROW = 'destinations = [[5, 0], [5, 1]]\n[area]\nrows = ["......", "......"]\n[area.zones]\ngate = [[3, 0], [3, 1]]\n'
+
+
+def test_flows_of_doors_and_destinations_are_varied_and_told(tmp_path):
+    written(tmp_path, ROW, "row.toml")
+    text = DOORS + 'capacity = [{}, {gate = "1/3"}, {gate = 1}]\n'
+    rows = [run_case(case) for case in th.read_study(written(tmp_path, text)).trials]
+    for name in ("rows.csv", "rows.parquet"):
+        write_results(rows, tmp_path / name)
+        assert th.read_results(tmp_path / name) == rows
+    assert len(rows) == 9 and not any(row["error"] for row in rows)
+    assert {row["destination_capacity"] for row in rows} == {"1/2", "2", "2/5"}
+    assert len({row["scenario"] for row in rows}) == 9
+    assert all(row["conflicts"] == 0 for row in rows)
+    waiting = dict.fromkeys(("{}", '{"gate":"1/3"}'), 0)
+    for row in rows:
+        for area in waiting:
+            waiting[area] += row["total_waiting"] * (f'"capacity":{area},' in row["area_options"])
+    assert waiting['{"gate":"1/3"}'] > waiting["{}"] > 0
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (DOORS + 'capacity = {west = "1/3"}', "areas.0: door: zone must be one of gate, not 'west'"),
+        (
+            DOORS + 'capacity = {gate = "1/s"}',
+            "areas.0: capacity of door 'gate' must be robots a step, such as 0.5, in",
+        ),
+        (DOORS + "capacity = {gate = 0}", "areas.0.capacity.gate: must be a number of robots above 0"),
+        (DOORS.replace('"1/2"', '"1/0"'), "rules.destination_capacity.0: must be a number of robots above 0"),
+        (SMALL + 'capacity = {gate = "1/3"}', "areas.0: capacity: belongs to a file, not to random"),
+    ],
+)
+def test_what_is_wrong_with_flows_is_told(tmp_path, text, message):
+    written(tmp_path, ROW, "row.toml")
+    with pytest.raises(th.FormatError) as error:
+        th.read_study(written(tmp_path, text))
+    assert message in str(error.value)

@@ -23,6 +23,7 @@ from .coverage import (
 )
 from .door import (
     Door as Door,
+    is_door_of_zone as is_door_of_zone,
     make_doors as make_doors,
 )
 from .entries import (

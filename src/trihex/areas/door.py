@@ -14,6 +14,7 @@ from trihex.areas.area import Area
 from trihex.areas.flow import check_flow, flow_from
 from trihex.areas.places import cells_from
 from trihex.areas.seconds import seconds_per_step
+from trihex.areas.zone import NAME_RULE, is_name
 from trihex.errors import AreaError, ScenarioError, check_type, kind_of
 from trihex.record import Record, read_only, short
 
@@ -54,6 +55,8 @@ class Door(Record):
         self._set("cells", read_only(np.unique(cells.astype(np.int64))))
         if not isinstance(self.name, str):
             raise ScenarioError(f"name of a door must be text, not {kind_of(self.name)}")
+        if self.name and not is_name(self.name):
+            raise ScenarioError(f"name of a door must be {NAME_RULE}, or empty, not {self.name!r:.80}")
         flow = check_flow("flow of a door", self.flow)
         if str(self.flow).strip().endswith("/s"):
             raise ScenarioError(f"flow of a door must be robots a step, not {self.flow!r}; make_doors takes both")
@@ -106,6 +109,12 @@ def make_doors(area: Area, given: Any, *, speed: float = 1.0, turn_time: float =
                 )
             seen[cell] = who
     return doors
+
+
+def is_door_of_zone(area: Area, door: Door) -> bool:
+    """Tell whether a door has the free cells of the zone of its name, so that the name tells it."""
+    cells = [zone.cells for zone in area.zones if zone.name == door.name]
+    return bool(cells) and np.array_equal(cells[0][~area.is_barrier(cells[0])], door.cells)
 
 
 def _pairs(given: Any) -> Iterable[Any]:

@@ -13,6 +13,7 @@ from trihex.errors import AreaError
 from trihex.record import Record, read_only
 
 MAX_NAME = 200
+NAME_RULE = f"a line of 1 to {MAX_NAME} characters"
 _WRONG = re.compile("[\\x00-\\x1f\\x7f-\\x9f\\ud800-\\udfff\\ufffe\\uffff\\u2028\\u2029]")
 
 
@@ -42,10 +43,14 @@ class Zone(Record):
     cells: NDArray[np.int64]
 
     def __post_init__(self) -> None:
-        name = self.name
-        if not isinstance(name, str) or not name.strip() or len(name) > MAX_NAME or _WRONG.search(name):
-            raise AreaError(f"name of a zone must be a line of 1 to {MAX_NAME} characters, not {name!r:.80}")
+        if not isinstance(self.name, str) or not is_name(self.name):
+            raise AreaError(f"name of a zone must be {NAME_RULE}, not {self.name!r:.80}")
         self._set("cells", read_only(np.unique(np.asarray(self.cells, dtype=np.int64))))
+
+
+def is_name(text: str) -> bool:
+    """Tell whether zones and doors may be called so: `NAME_RULE`."""
+    return bool(text.strip()) and len(text) <= MAX_NAME and not _WRONG.search(text)
 
 
 def count_by_zone(zones: Iterable[Zone], cells: NDArray[np.int64]) -> dict[str, int]:

@@ -8,10 +8,10 @@ from typing import Any
 import click
 
 from trihex.cli.group import DONE, NO
-from trihex.cli.options import PATH, area_options, read_played, rule_options
+from trihex.cli.options import PATH, area_options, of_waypoints, read_played, rule_options
 from trihex.cli.outputs import check_outputs, tell_written
 from trihex.cli.progress import bar
-from trihex.cli.types import Whole
+from trihex.cli.types import Metres, Seconds, Whole
 
 
 @click.command("check")
@@ -20,6 +20,8 @@ from trihex.cli.types import Whole
 @area_options
 @rule_options
 @click.option("--limit", type=Whole(0), default=10, show_default=True, help="How many conflicts to list.")
+@click.option("--speed", type=Metres(), help="Of the robots, in metres a second, for flows a second. [default: 1.0]")
+@click.option("--turn-time", type=Seconds(), help="Seconds in which robots turn before each step. [default: 0]")
 @click.option("--summary", type=PATH, metavar="FILE", help="The report as JSON; - writes it to the standard output.")
 def command(plan: Path, area: Path | None, limit: int, summary: Path | None, **options: Any) -> int:
     """Tell whether a plan or a run is safe.
@@ -34,13 +36,14 @@ def command(plan: Path, area: Path | None, limit: int, summary: Path | None, **o
     from trihex.running import Run
 
     check_outputs((summary, (), "a summary"))
-    judged: Any = read_played(plan, area, options, for_judge=True)
+    pace = of_waypoints(options)
+    judged: Any = read_played(plan, area, options, for_judge=True, pace=pace)
     if isinstance(judged, Run):
-        return _check_run(plan, judged, limit, summary)
+        return _check_run(plan, judged, limit, summary, pace)
     with bar("judging", "actions") as progress:
         audit = audit_plan(judged, limit=limit, progress=progress)
     if summary:
-        _summarise(judged, audit, summary)
+        _summarise(judged, audit, summary, pace)
     if str(summary) != "-":
         robots, arrived = judged.scenario.robot_count, int(judged.arrived.sum())
         time = f"{judged.steps} {judged.scenario.step_word}s"
@@ -57,7 +60,7 @@ def command(plan: Path, area: Path | None, limit: int, summary: Path | None, **o
     return NO
 
 
-def _check_run(path: Path, run: Any, limit: int, summary: Path | None) -> int:
+def _check_run(path: Path, run: Any, limit: int, summary: Path | None, pace: dict[str, Any]) -> int:
     from trihex.cli.outputs import write_text
     from trihex.cli.texts import conflict_lines, verdict
     from trihex.formats import report_text
@@ -65,7 +68,7 @@ def _check_run(path: Path, run: Any, limit: int, summary: Path | None) -> int:
 
     audit = audit_run(run, limit)
     if summary:
-        write_text(report_text(make_run_report(run)), summary)
+        write_text(report_text(make_run_report(run, **pace)), summary)
     if str(summary) != "-":
         arrived = int(run.arrived.sum())
         click.echo(f"{path}: {arrived} of {run.robots.size} robots arrived in {run.steps} steps; {verdict(audit)}")
@@ -84,11 +87,11 @@ def _tell_likeness(plan: Path, scenario: Any) -> None:
         click.echo(f"trihex: {plan}{looks}", err=True)
 
 
-def _summarise(plan: Any, audit: Any, summary: Path) -> None:
+def _summarise(plan: Any, audit: Any, summary: Path, pace: dict[str, Any]) -> None:
     from trihex.formats import report_text, write_report
     from trihex.judging import make_report
 
-    report = make_report(plan, audit=audit)
+    report = make_report(plan, audit=audit, **pace)
     if str(summary) == "-":
         click.echo(report_text(report), nl=False)
     else:

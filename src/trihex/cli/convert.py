@@ -82,13 +82,13 @@ def _convert_plan(
     check_outputs((target, suffixes, kind))
     suffix = suffix_of(target, suffixes, kind)
     if suffix in DEPENDENCY_SUFFIXES or suffix in LAYER_SUFFIXES:
-        judged = read_judged(source, area, options, add_area="--area AREA")
+        judged = read_judged(source, area, options, add_area="--area AREA", pace=way)
         if suffix in LAYER_SUFFIXES:
             write_tiled(judged, target, like=area)
         else:
             write_dependencies(judged, target, speed=way.get("speed", 1.0))
     else:
-        plan = read_played(source, area, options, add_area="--area AREA")
+        plan = read_played(source, area, options, add_area="--area AREA", pace=way)
         if waypoints or suffix not in PLAN_SUFFIXES:
             write_waypoints(plan, target, **way)
         else:
@@ -116,6 +116,8 @@ def _convert_area(source: Path, target: Path, options: dict[str, Any]) -> None:
     draft = read_described(source, options)
     is_area = draft.destinations is None and draft.robots is None and draft.random_count is None
     check_outputs((target, AREA_SUFFIXES if is_area else SCENARIO_SUFFIXES, "an area" if is_area else "a scenario"))
+    if is_area and draft.doors:
+        raise wrong_use(f"an area without destinations cannot carry doors with a flow, as {source} has")
     if is_area:
         write_area(draft.area, target)
         tell_written(target)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import wraps
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
@@ -306,9 +307,18 @@ def complete(draft: Draft, *uses: str, needs_robots: bool = True) -> Scenario:
 
 
 def read_judged(
-    path: Path, area: Path | None, options: dict[str, Any], *, add_area: str = "AREA", for_judge: bool = False
+    path: Path,
+    area: Path | None,
+    options: dict[str, Any],
+    *,
+    add_area: str = "AREA",
+    for_judge: bool = False,
+    pace: Mapping[str, Any] = MappingProxyType({}),
 ) -> Plan:
-    """Return the plan at `path`; what `area` and the options say comes before what it says itself."""
+    """Return the plan at `path`; what `area` and the options say comes before what it says itself.
+
+    ``pace`` has the speed and the turn time of robots, by which flows a second become flows a step.
+    """
     from dataclasses import replace
 
     from trihex.areas import claimed
@@ -321,7 +331,9 @@ def read_judged(
     if not form.brings_scenario:
         if area is None:
             raise wrong_use(f"{path} does not hold its area: add {add_area}")
-        scenario = complete(read_described(area, options), needs_robots=False)
+        described = read_described(area, options)
+        described = replace(described, outputs=described.outputs | dict(pace))
+        scenario = complete(described, needs_robots=False)
         with bar("reading", "rows") as progress:
             return read_plan(path, scenario, for_judge=for_judge, progress=progress)
     plan = read_plan(path, for_judge=for_judge)
@@ -336,7 +348,7 @@ def read_judged(
     elif any(value is not None for value in place.values()):
         raise wrong_use(f"{path} holds its area itself, so how to read one cannot be told")
     draft = replace(draft, area=draft.area.with_tessellation(replace(own, costs=options["costs"] or own.costs)))
-    draft = _changed(draft, options)
+    draft = _changed(replace(draft, outputs=dict(pace)), options)
     if options["destination"]:  # whoever names a barrier here is wrong, not the plan
         replace(draft, robots=None).complete()
     scenario = claimed(draft.complete) if for_judge else draft.complete()

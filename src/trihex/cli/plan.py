@@ -48,7 +48,9 @@ class Outputs(NamedTuple):
 @click.option("--planner", type=Name("trihex.planners", "PLANNERS"), help="Who plans. [default: fcost]")
 @click.option("--planner-option", metavar="NAME=VALUE", multiple=True, help="One of its options; may be repeated.")
 @click.option("--straight", is_flag=True, help="Then let robots turn less, with equal arrivals and at no more cost.")
-@click.option("--out", "plan", type=PATH, metavar="PLAN", help="The plan: .csv, .npz, .mcap, .tmj for Tiled.")
+@click.option(
+    "--out", "plan", type=PATH, metavar="PLAN", help="The plan: .csv, .npz, .mcap, .tmj for Tiled, .dependencies.json."
+)
 @click.option("--summary", type=PATH, metavar="FILE", help="The report as JSON; - writes it to the standard output.")
 @click.option("--picture", type=PATH, metavar="FILE", help="The plan drawn, as .png, .svg or .pdf.")
 @click.option("--waypoints", type=PATH, metavar="FILE", help="Where each robot is when, in metres and seconds.")
@@ -95,12 +97,13 @@ def command(
     check_planner_options(planner, planner_options)
     if "certificate" in outputs and planner != "optimal":
         raise wrong_use(f"--certificate proves what planner 'optimal' plans, not {planner!r}")
-    _check_before(draft, straight=straight, certificate="certificate" in outputs)
+    is_order = "plan" in outputs and _is_order(outputs["plan"])
+    _check_before(draft, straight=straight, certificate="certificate" in outputs, is_order=is_order)
     scenario = complete(draft, *_uses(planner, outputs))
     if scenario.area.frame is None:
         if "waypoints" in outputs:
             raise wrong_use("--waypoints are in metres: add --cell-size")
-        if "plan" in outputs and _is_of_waypoints(outputs["plan"]):
+        if "plan" in outputs and _is_in_metres(outputs["plan"]):
             raise wrong_use(f"--out {outputs['plan']} is in metres: add --cell-size")
     pace: dict[str, float] = {name: outputs[name] for name in ("speed", "turn_time") if name in outputs}
     report = _reported(scenario, planner, planner_options, seconds, pace, straight=straight)
@@ -126,21 +129,29 @@ def _uses(planner: str, outputs: dict[str, Any]) -> list[str]:
     return [*uses, *(use for use in ("picture", "certificate") if use in outputs)]
 
 
-def _check_before(draft: Any, *, straight: bool, certificate: bool) -> None:
-    """Raise unless what is planned can be straightened and certified as asked, whatever robots there are."""
+def _check_before(draft: Any, *, straight: bool, certificate: bool, is_order: bool) -> None:
+    """Raise unless what is planned can be straightened, certified and ordered as asked, whatever robots there are."""
     from dataclasses import replace
 
-    if draft.destinations is None or not (straight or certificate):  # it is told a little later that there is none
+    if draft.destinations is None or not (
+        straight or certificate or is_order
+    ):  # it is told a little later that there is none
         return
     scenario = replace(draft, robots=None, random_count=None).complete()
     if draft.has_slowness:
-        raise wrong_use(f"--{'straight' if straight else 'certificate'} needs robots that are all as fast")
+        option = "straight" if straight else "certificate" if certificate else "out"
+        order = " for an order of who waits for whom" * (option == "out")
+        raise wrong_use(f"--{option} needs robots that are all as fast{order}")
     if certificate:
         from trihex.optimum import check_certifiable
 
         check_certifiable(scenario)
         if draft.has_start_times:
             raise wrong_use("--certificate needs robots that may all begin at once, without start times")
+    if is_order:
+        from trihex.plans import check_orderable
+
+        check_orderable(scenario)
     if straight:
         from trihex.planners import check_straightenable
 
@@ -149,8 +160,15 @@ def _check_before(draft: Any, *, straight: bool, certificate: bool) -> None:
 
 def _check_outputs(outputs: dict[str, Any], write_scenario: Path | None) -> None:
     """Raise unless all that is to be written can be."""
-    from trihex.formats import CERTIFICATE_SUFFIXES, LAYER_SUFFIXES, PLAN_SUFFIXES, WAYPOINT_SUFFIXES
+    from trihex.formats import (
+        CERTIFICATE_SUFFIXES,
+        DEPENDENCY_SUFFIXES,
+        LAYER_SUFFIXES,
+        PLAN_SUFFIXES,
+        WAYPOINT_SUFFIXES,
+    )
 
+    plan_suffixes = dict.fromkeys((*DEPENDENCY_SUFFIXES, *PLAN_SUFFIXES, *WAYPOINT_SUFFIXES, *LAYER_SUFFIXES))
     unnamed = [value for value in outputs.values() if write_scenario and not str(value).isprintable()]
     if unnamed:
         raise wrong_use(f"--write-scenario can name no output but in printable UTF-8, not {str(unnamed[0])!a:.200}")
@@ -159,7 +177,7 @@ def _check_outputs(outputs: dict[str, Any], write_scenario: Path | None) -> None
 
         check_outputs((outputs["picture"], PICTURE_SUFFIXES, "a picture"))
     check_outputs(
-        (outputs.get("plan"), dict.fromkeys((*PLAN_SUFFIXES, *WAYPOINT_SUFFIXES, *LAYER_SUFFIXES)), "a plan"),
+        (outputs.get("plan"), plan_suffixes, "a plan"),
         (outputs.get("summary"), (), "a summary"),
         (outputs.get("picture"), (), "a picture"),
         (outputs.get("waypoints"), WAYPOINT_SUFFIXES, "waypoints"),
@@ -168,18 +186,34 @@ def _check_outputs(outputs: dict[str, Any], write_scenario: Path | None) -> None
     )
 
 
+def _is_order(path: Path) -> bool:
+    """Tell whether a file tells who waits for whom, as its suffix says."""
+    from trihex.formats import DEPENDENCY_SUFFIXES
+
+    return path.name.lower().endswith(tuple(DEPENDENCY_SUFFIXES))
+
+
+def _is_in_metres(path: Path) -> bool:
+    """Tell whether a file can be written of places in metres alone, as its suffix says."""
+    return _is_of_waypoints(path) or path.name.lower().endswith(".vda5050.json")
+
+
 def _is_of_waypoints(path: Path) -> bool:
-    """Tell whether a file tells of places in metres, as its suffix says, not of the actions of a plan."""
+    """Tell whether a file tells of places in metres, as its suffix says, not of a plan's actions or their order."""
     from trihex.formats import PLAN_SUFFIXES, WAYPOINT_SUFFIXES
 
-    return path.suffix.lower() in set(WAYPOINT_SUFFIXES) - set(PLAN_SUFFIXES)
+    return not _is_order(path) and path.suffix.lower() in set(WAYPOINT_SUFFIXES) - set(PLAN_SUFFIXES)
 
 
 def _write(report: Any, outputs: dict[str, Any], area: Path) -> None:
     """Write and draw the plan."""
     from trihex.formats import LAYER_SUFFIXES, write_certificate, write_plan, write_tiled, write_waypoints
 
-    if "plan" in outputs and _is_of_waypoints(outputs["plan"]):
+    if "plan" in outputs and _is_order(outputs["plan"]):
+        from trihex.formats import write_dependencies
+
+        write_dependencies(report.plan, outputs["plan"], speed=outputs.get("speed", 1.0))
+    elif "plan" in outputs and _is_of_waypoints(outputs["plan"]):
         write_waypoints(report.plan, outputs["plan"], **of_waypoints(dict(outputs)))
     elif "plan" in outputs and outputs["plan"].suffix.lower() in LAYER_SUFFIXES:
         write_tiled(report.plan, outputs["plan"], like=area)

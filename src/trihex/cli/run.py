@@ -155,7 +155,7 @@ def _trial_of(beginning: Beginning, way: Way, options: dict[str, Any], pace: dic
     """Return the trial that begins in an area, or that goes on where a run ended."""
     from dataclasses import replace
 
-    from trihex.running import Sensor, Trial
+    from trihex.running import Sensor, Trial, check_followable
 
     if beginning.resume is not None:
         return _resumed(beginning.resume, way, pace)
@@ -163,11 +163,14 @@ def _trial_of(beginning: Beginning, way: Way, options: dict[str, Any], pace: dic
         raise wrong_use("there is no AREA: name one, or add --plan PLAN or --resume RUN")
     draft = read_described(beginning.area, options)
     draft = replace(draft, outputs=draft.outputs | pace)  # speed tells which second is which step
-    scenario = complete(draft, "trial", way.planner or draft.planner or "fcost", "bound")
+    planner = way.planner or draft.planner or "fcost"
+    if draft.destinations is not None:  # what is refused is told before kernels are compiled and robots drawn
+        check_followable(replace(draft, robots=None, random_count=None).complete(), planner, replan=way.replan)
+    scenario = complete(draft, "trial", planner, "bound")
     sensor = None if way.sense is None else Sensor(scenario.area.tessellation, way.sense, way.line_of_sight)
     return Trial(
         scenario,
-        way.planner or draft.planner or "fcost",
+        planner,
         sensor=sensor,
         events=_events_of(way, scenario.area, pace),
         delay=way.delays or 0.0,

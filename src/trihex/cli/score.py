@@ -20,7 +20,9 @@ from trihex.cli.types import Metres, Positive
 @area_options
 @rule_options
 @click.option("--speed", type=Metres(), help="Nobody is faster, in metres a second. [default: the greatest of anyone]")
-@click.option("--flow", type=Positive("persons"), help="Persons a second through all exits. [default: any]")
+@click.option(
+    "--flow", type=Positive("persons"), help="Persons a second through all exits without a capacity. [default: any]"
+)
 @click.option("--summary", type=PATH, metavar="FILE", help="The numbers as JSON; - writes them to the standard output.")
 @click.option("--curve", type=PATH, metavar="FILE", help="N(t) beside the bound, as .csv, .png, .svg or .pdf.")
 @click.option("--lost", type=PATH, metavar="FILE", help="Seconds lost in each cell, drawn or .npy.")
@@ -42,6 +44,7 @@ def command(
 
     Exit status 1: this one has, so what is assumed is not so.
     """
+    from dataclasses import replace
     from json import dumps
 
     from trihex.formats import read_trajectories, write_field, write_values
@@ -55,7 +58,9 @@ def command(
         (lost, (*PICTURE_SUFFIXES, ".npy"), "a map"),
     )
     crowd = read_trajectories(trajectories)
-    scenario = complete(read_described(area, options), "bound", "reach", needs_robots=False)
+    # What doors let in a second is made of steps and of seconds again: at one speed, whatever the scenario has.
+    draft = replace(read_described(area, options), outputs={})
+    scenario = complete(draft, "bound", "reach", needs_robots=False)
     score = make_score(crowd, scenario, speed=speed, flow=flow)
     if summary is not None:
         write_text(dumps(score.as_dict(), indent=2, ensure_ascii=False, allow_nan=False) + "\n", summary)
@@ -110,6 +115,14 @@ def score_lines(score: Any) -> list[str]:
     lines += [f"exit {name}: {count} persons" for name, count in numbers["exits"].items()]
     lines.append(f"{numbers['seconds_lost']:.0f} person seconds lost to standing and walking slowly")
     body = f"one person in a cell of {numbers['cell_size']:g} m, exits and doors as wide as their cells"
-    flow = f"; at most {score.flow:g} persons leave in a second" if score.flow else ""
-    lines.append(f"assumed: nobody is faster than {score.speed:.3g} m/s; {body}{flow}")
+    lines.append(f"assumed: nobody is faster than {score.speed:.3g} m/s; {body}{_flows_in_words(score)}")
     return lines
+
+
+def _flows_in_words(score: Any) -> str:
+    """Return how many leave in a second at most, by exit where exits tell it."""
+    if set(score.flows) <= {"elsewhere"}:
+        return f"; at most {score.flow:g} persons leave in a second" if score.flow else ""
+    flows = ", ".join(f"{flow:.4g} {'' if name == 'elsewhere' else 'by '}{name}" for name, flow in score.flows.items())
+    any_number = "" if score.flow else "; any number by the other exits, so that flows do not count"
+    return f"; at most so many persons leave in a second: {flows}{any_number}"

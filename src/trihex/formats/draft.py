@@ -15,6 +15,7 @@ from trihex.areas import (
     Door,
     Scenario,
     flow_from,
+    is_door_of_zone,
     make_doors,
     random_robots,
     random_start_times,
@@ -184,9 +185,8 @@ def draft_of(scenario: Scenario) -> Draft:
     """Return the draft that completes to `scenario`; a waiting cost like that of an edge stays so if costs change."""
     names = ("destinations", "robots", "seed", "crossing", "corners", "destination_capacity", "clock", "following")
     waiting_cost = None if scenario.waiting_cost == scenario.area.tessellation.waiting_cost else scenario.waiting_cost
-    zones = {zone.name: zone.cells.tolist() for zone in scenario.area.zones}
     doors = tuple(
-        (door.name if zones.get(door.name) == door.cells.tolist() else door.cells.tolist(), door.flow)
+        (door.name if is_door_of_zone(scenario.area, door) else door.cells.tolist(), door.flow)
         for door in scenario.doors
     )
     given = {name: getattr(scenario, name) for name in names}

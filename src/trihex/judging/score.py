@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Claim, Scenario, least_advance, nearest_free_cell
+from trihex.areas import Claim, Scenario, least_advance, nearest_free_cell, seconds_per_step
 from trihex.bounds import arrivals_bound
 from trihex.errors import FormatError, ScenarioError, check_number, check_type
 from trihex.judging.reach import is_reachable
@@ -38,7 +38,10 @@ class Score(Record):
     speed : float
         Metres in a second.
     flow : float or None
-        Persons in a second, through all exits together.
+        Persons in a second, through all exits together; None where some exit lets out any number.
+    flows : dict
+        Persons in a second by the names of exits that are doors with a flow; of those that are none together,
+        ``elsewhere``, if that is told.
     arrived : bool array, shape (persons,)
         Whether each left: it is gone before the last frame, or is at a destination in it.
     seconds : float64 array, shape (persons,)
@@ -55,6 +58,7 @@ class Score(Record):
     scenario: Scenario
     speed: float
     flow: float | None
+    flows: dict[str, float]
     arrived: NDArray[np.bool_]
     seconds: NDArray[np.float64]
     earliest: NDArray[np.float64]
@@ -118,7 +122,8 @@ class Score(Record):
             "exits": self.exits,
             "seconds_lost": float(self.lost.sum()),
             "speed": self.speed,
-            "flow": self.flow,
+            "flow": None if self.flow is None else round(self.flow, 9),
+            "flows": {name: round(flow, 9) for name, flow in self.flows.items()},
             "cell_size": self.scenario.area.metres.cell_size,
         }
 
@@ -136,7 +141,9 @@ def make_score(
     speed : float, optional
         Metres in a second. Default: the greatest of anyone.
     flow : float, optional
-        Persons in a second through all exits together. Default: one in each cell of an exit for each move.
+        Persons in a second through all exits together, but for those that are doors of the scenario, which tell it
+        themselves: in steps of robots of 1 metre in a second, as `Scenario` takes them. Default: one in each cell of an
+        exit for each move. Doors inside are as wide as their cells.
 
     Raises
     ------
@@ -168,13 +175,46 @@ def make_score(
     unit = frame.cell_size / speed
     least = arrivals_bound(claim).steps * (least_advance(area.tessellation) * unit) - (_SLACK * unit + moved / speed)
     earliest = np.maximum(least, 0.0)
-    if flow is not None:
-        number = np.arange(earliest.size)
-        earliest = np.maximum.accumulate(earliest - number / flow) + number / flow
+    flows, is_limited = _flows(scenario, flow)
+    if is_limited:
+        there = np.count_nonzero(np.isin(starts, scenario.destinations))  # they are out, and first in the bound
+        earliest[there:] = _let_out(earliest[there:], list(flows.values()))
     seconds = trajectories.frame[trajectories.last_row] / trajectories.frame_rate
     arrived, exits = _ends(trajectories, scenario, cell)
     lost = _lost(trajectories, scenario, cell, speed)
-    return Score(trajectories, claim, speed, flow, arrived, seconds, earliest, exits, lost)
+    total = sum(flows.values()) if is_limited else None
+    return Score(trajectories, claim, speed, total, flows, arrived, seconds, earliest, exits, lost)
+
+
+def _flows(scenario: Scenario, elsewhere: float | None) -> tuple[dict[str, float], bool]:
+    """Return how many leave in a second by each exit that has a flow and by all others, and whether that is all."""
+    area, step, flows = scenario.area, seconds_per_step(scenario.area), {}
+    is_free = np.ones(scenario.destinations.size, dtype=bool)
+    for door in scenario.doors:
+        is_own = np.isin(scenario.destinations, door.cells)
+        if is_own.any():
+            flows[door.name or area.name_of_cell(int(door.cells[0]))] = float(door.flow) / step
+            is_free &= ~is_own
+    if elsewhere is not None and not is_free.any():
+        raise ScenarioError(f"flow is of exits without a capacity, and all have one, so {elsewhere:g} cannot be told")
+    if elsewhere is not None:
+        flows["elsewhere"] = float(elsewhere)
+    return flows, elsewhere is not None or not is_free.any()
+
+
+def _let_out(earliest: NDArray[np.float64], flows: list[float]) -> NDArray[np.float64]:
+    """Delay ascending times so that in no stretch of time more leave than all exits let out in it.
+
+    An exit of flow f lets out 1 + f * T at most in any stretch of T seconds, so n persons more than those before them
+    need the n-th of the times 0, 1 / f, 2 / f, ... of all exits. Whoever comes as m-th does so at ``earliest[m]`` at
+    best, and all after him no earlier.
+    """
+    count = earliest.size
+    slots = np.sort(np.concatenate([np.arange(count) / flow for flow in flows]))[:count]
+    delayed = earliest.copy()
+    for first in range(count):
+        np.maximum(delayed[first:], earliest[first] + slots[: count - first], out=delayed[first:])
+    return delayed
 
 
 def _check_room(trajectories: Trajectories, scenario: Scenario, cell: NDArray[np.int64]) -> None:

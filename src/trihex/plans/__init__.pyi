@@ -4,6 +4,7 @@ from .arrivals import (
 )
 from .dependencies import (
     Dependencies as Dependencies,
+    check_orderable as check_orderable,
     make_dependencies as make_dependencies,
 )
 from .exits import (

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import check_as_fast
+from trihex.areas import Scenario, check_as_fast
 from trihex.errors import PlanError, check_type
 from trihex.kernels.codes import WAIT
 from trihex.plans.plan import Plan
@@ -101,6 +101,13 @@ class _Waypoints:
         return np.append(self.is_start[1:], True)
 
 
+def check_orderable(scenario: Scenario) -> None:
+    """Raise PlanError unless the order of a plan is all that its rules ask for: a flow is a rule of times."""
+    check_as_fast(scenario, "an order of who waits for whom")
+    if scenario.has_flows:
+        raise PlanError("dependencies tell who waits for whom, not for how long: doors must have no flow")
+
+
 def make_dependencies(plan: Plan) -> Dependencies:
     """Return who must wait for whom, so that a plan can be executed at any speed.
 
@@ -128,11 +135,9 @@ def make_dependencies(plan: Plan) -> Dependencies:
            [0, 2, 1, 2]]))
     """
     check_type("plan", plan, Plan)
-    check_as_fast(plan.scenario, "an order of who waits for whom")
     if plan.jumps.size:
         raise PlanError("a plan in which robots jump has no dependencies")
-    if plan.scenario.has_flows:
-        raise PlanError("dependencies tell who waits for whom, not for how long: doors must have no flow")
+    check_orderable(plan.scenario)
     points = _waypoints_of(plan)
     _check_moves(plan, points)
     is_inside = np.isin(points.cell, plan.scenario.destinations)

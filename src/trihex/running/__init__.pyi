@@ -19,6 +19,7 @@ from .passing import (
     PassingOrder as PassingOrder,
     make_passing_order as make_passing_order,
 )
+from .replanning import check_followable as check_followable
 from .report import (
     RunReport as RunReport,
     make_run_report as make_run_report,

@@ -19,7 +19,7 @@ from trihex.record import read_only
 from trihex.running.fleet import Fleet
 from trihex.running.obstacles import Obstacles
 from trihex.running.orders import Orders
-from trihex.running.replanning import Replanner
+from trihex.running.replanning import Replanner, check_followable
 from trihex.running.run import BROKEN, LEFT
 from trihex.running.stepping import ASIDE, STEPPERS, Stepper
 
@@ -88,11 +88,7 @@ class Execution:
         check_choice("aside", aside, ASIDE, ExecutionError)
         #: What makes plans; None where robots go step by step.
         self.replanner = Replanner(planner, budget) if replan or planner not in STEPPERS else None
-        if self.replanner is not None and scenario.has_flows:
-            raise ExecutionError(
-                f"planner must be greedy or fcost, without replan, where doors have a flow, not {planner!r}"
-                f"{' with replan' * replan}: a plan is followed in its order, not at its times"
-            )
+        check_followable(scenario, planner, replan=replan)
         prepare("execution", field_kernels(scenario.area.tessellation, scenario.corners))
         n_scheme = make_n_scheme(scenario) if n_scheme is None else n_scheme
         self.scenario, self.planner, self.aside = scenario, planner, aside

@@ -11,11 +11,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.errors import TooLargeError
+from trihex.areas import Scenario
+from trihex.errors import ExecutionError, TooLargeError
 from trihex.fields import NScheme
 from trihex.kernels.codes import WAIT
 from trihex.planners import make_plan
 from trihex.running.passing import Follower, make_passing_order
+from trihex.running.stepping import STEPPERS
 
 _MOST_PAUSE = 64
 # Where more robots are late, in the mean of about ten steps, the order of a plan holds up more than the plan is worth:
@@ -146,3 +148,12 @@ class Replanner:
             return None
         self.plans += 1
         return attempt.follower
+
+
+def check_followable(scenario: Scenario, planner: str, *, replan: bool = False) -> None:
+    """Raise ExecutionError where robots would follow a plan in its order, though doors ask for its times."""
+    if scenario.has_flows and (replan or planner not in STEPPERS):
+        raise ExecutionError(
+            f"planner must be greedy or fcost, without replan, where doors have a flow, not {planner!r}"
+            f"{' with replan' * replan}: a plan is followed in its order, not at its times"
+        )

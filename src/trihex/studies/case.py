@@ -13,7 +13,16 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from trihex.areas import GENERATORS, Area, Scenario, Tessellation, random_start_times, slowness_of, start_times_of
+from trihex.areas import (
+    GENERATORS,
+    Area,
+    Scenario,
+    Tessellation,
+    make_doors,
+    random_start_times,
+    slowness_of,
+    start_times_of,
+)
 from trihex.bounds import distance_bound, make_lower_bound
 from trihex.fields import NScheme, make_n_scheme
 from trihex.formats import Draft, read_draft, read_slowness, read_start_times, read_starts
@@ -132,7 +141,8 @@ def read_area_of(
         As readers and generators do.
     """
     tessellation = Tessellation(**cells)
-    options = {name: value for name, value in entry.items() if name not in ("path", "generator", "name", "size")}
+    own = ("path", "generator", "name", "size", "capacity")
+    options = {name: value for name, value in entry.items() if name not in own}
     if "generator" in entry:
         width, height = entry["size"]
         area = GENERATORS[entry["generator"]](tessellation, height, width, **{"seed": seed, **options})
@@ -140,7 +150,10 @@ def read_area_of(
     if (cell_area := options.pop("cell_area", None)) is not None:
         options["cell_size"] = sqrt(cell_area / tessellation.area_of_cell)
     draft = read_draft(folder / entry["path"], tessellation, **{**least, **options})
-    return replace(draft, area=replace(draft.area, name=entry.get("name", draft.area.name)))
+    told = entry.get("capacity", {})
+    doors = (*(door for door in draft.doors if not isinstance(door[0], str) or door[0] not in told), *told.items())
+    make_doors(draft.area, doors)  # what is wrong shows at once
+    return replace(draft, area=replace(draft.area, name=entry.get("name", draft.area.name)), doors=doors)
 
 
 def _scenario_of(case: Case, draft: Draft) -> Scenario:

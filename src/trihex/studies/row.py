@@ -32,7 +32,7 @@ COLUMNS: dict[str, type] = {
     **dict.fromkeys(("area", "area_options", "tessellation", "neighbourhood", "costs"), str),
     "waiting_cost": int,
     **dict.fromkeys(("crossing", "corners"), str),
-    "destination_capacity": int,
+    "destination_capacity": str,  # a whole number, or a flow such as 1/2
     **dict.fromkeys(("clock", "following"), str),
     "destinations": str,
     "robots": int,
@@ -77,7 +77,13 @@ def _described(case: Case) -> Row:
         "neighbourhood": case["tessellation"].get("neighbourhood", "full"),
         "costs": case["tessellation"].get("costs", "paper"),
         **case["rules"],
+        "destination_capacity": _capacity(case["rules"].get("destination_capacity")),
     }
+
+
+def _capacity(capacity: object) -> str | None:
+    """Return a capacity as text, as 1 or 1/2; summaries have it as a number, which thirds are not."""
+    return None if capacity is None else str(capacity)
 
 
 def _told(planner: Mapping[str, Any]) -> dict[str, Any]:
@@ -103,8 +109,7 @@ def row_of_report(report: Report) -> Row:
     known = {name: summary[name] for name in COLUMNS if name in summary and not name.startswith("seconds")}
     for name in ("area", "seed", "planner"):
         del known[name]
-    if isinstance(known["destination_capacity"], float):  # a flow, in a column of whole numbers
-        known["destination_capacity"] = None
+    known["destination_capacity"] = _capacity(plan.scenario.destination_capacity)
     return {**known, **_waits(plan), **_lengths(plan)}
 
 

@@ -9,7 +9,7 @@ from pydantic import AfterValidator, BeforeValidator, Field
 
 from trihex.areas import CLOCKS, CORNERS, COSTS, CROSSINGS, FOLLOWINGS, GENERATORS, NEIGHBOURHOODS, TESSELLATIONS
 from trihex.formats.areas.options import UNKNOWNS
-from trihex.formats.schema import Cells, Count, Number, Points, Table, Whole, choice, distribution
+from trihex.formats.schema import Cells, Count, Flow, Number, Points, Table, Whole, choice, distribution
 from trihex.studies.placing import DESTINATION_PLACES, ROBOT_PLACEMENTS
 
 _MOST_SEEDS = 10_000_000
@@ -88,6 +88,7 @@ class AreaAxis(Table):
     threshold: Varied[Share] | None = None
     invert: bool | None = None
     resolution: Varied[Positive] | None = None
+    capacity: Varied[dict[str, Flow]] | None = None
 
 
 class TessellationAxis(Table):
@@ -104,7 +105,7 @@ class RulesAxis(Table):
     waiting_cost: Varied[Whole] | None = None
     crossing: Varied[Annotated[str, choice("it", CROSSINGS)]] | None = None
     corners: Varied[Annotated[str, choice("it", CORNERS)]] | None = None
-    destination_capacity: Varied[Count] | None = None
+    destination_capacity: Varied[Flow] | None = None
     clock: Varied[Annotated[str, choice("it", CLOCKS)]] | None = None
     following: Varied[Annotated[str, choice("it", FOLLOWINGS)]] | None = None
 

@@ -226,7 +226,7 @@ class _Check:
             self._attempt(key, given, lambda: _check_generator(area.generator or "", given))
             return
         for name in given:
-            if name not in ("path", "name", *_METRES):
+            if name not in ("path", "name", "capacity", *_METRES):
                 self.mistakes.append(f"{key}.{name}: belongs to a generator, not to a file")
         if "cell_size" in given and "cell_area" in given:
             self.mistakes.append(f"{key}: must have only one of cell_size, cell_area, not both")

@@ -86,6 +86,7 @@ def lost_in_letters(scenario: Scenario) -> list[str]:
         for name in _RULES
         if getattr(scenario, name) != getattr(plain, name)
     ]
+    lost += ["doors with a flow"] if scenario.doors else []
     lost += ["start times"] if scenario.has_start_times else []
     lost += ["slowness"] if scenario.has_slowness else []
     return [*lost, *(["a frame in metres"] if scenario.area.frame else [])]

@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Area, Frame, Scenario, Tessellation, Zone, cells_from
+from trihex.areas import Area, Frame, Scenario, Tessellation, Zone, cells_from, is_door_of_zone
 from trihex.errors import FormatError, ScenarioError, TrihexError
 from trihex.files import new_file
 from trihex.formats.areas.letters import draft_of_letters
@@ -247,10 +247,11 @@ def _zone_lines(area: Area) -> list[str]:
 
 
 def _door_lines(scenario: Scenario) -> list[str]:
-    lines, zones = [], {zone.name: zone.cells for zone in scenario.area.zones}
+    lines = []
     for door in scenario.doors:
-        is_zone = door.name in zones and np.array_equal(door.cells, zones[door.name])
-        where = f"zone = {_text(door.name)}" if is_zone else f"cells = {_cells(scenario.area, door.cells)}"
+        where = f"cells = {_cells(scenario.area, door.cells)}"
+        if is_door_of_zone(scenario.area, door):
+            where = f"zone = {_text(door.name)}"
         lines += ["", "[[doors]]", where, f"capacity = {_flow(door.flow)}"]
     return lines
 
