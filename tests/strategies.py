@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 import trihex as th
 from trihex.areas import CORNERS, CROSSINGS
+from trihex.areas.slowness import LONGEST_MOVE
 
 SHAPES = [("triangular", "full"), ("triangular", "edge"), ("hexagonal", "full"), ("square", "full"), ("square", "edge")]
 
@@ -60,6 +61,13 @@ def with_start_times(scenario, seed, *, latest=20):
     rng = np.random.default_rng(seed)
     times = rng.integers(0, rng.choice([1, 3, latest + 1]), size=scenario.robot_count)
     return replace(scenario, start_times=times * (rng.random(times.size) < 0.6))
+
+
+def with_slowness(scenario, seed, *, most=4):
+    """Return the scenario with robots of some slowness drawn from `seed`, as far as moves may last."""
+    rng = np.random.default_rng(seed)
+    most = min(most, LONGEST_MOVE // int(scenario.duration_of_direction.max()))
+    return replace(scenario, slowness=rng.integers(1, most + 1, size=scenario.robot_count))
 
 
 def scenarios(**limits):

@@ -24,6 +24,8 @@ CASES = {
     "barrier on a destination": ("field.change(blocked=(5, 3))", "a cell must not be blocked while it is a destination: (5, 3)"),
     "axial coordinates of squares": ("area.with_tessellation('square').cell_to_axial(0)", "axial and cube coordinates are of hexagons; the area is square"),
     "start times of some": ("th.Scenario(area, (5, 3), [(0, 3), (1, 3)], start_times=[3])", "start_times must be one for each of 2 robots, not 1"),
+    "slowness of some": ("th.Scenario(area, (5, 3), [(0, 3), (1, 3)], slowness=[3])", "slowness must be one for each of 2 robots, not 1"),
+    "run of the slow": ("th.Execution(th.Scenario(area, (5, 3), [(0, 3)], slowness=2))", "an execution needs robots that are all as fast, without slowness, not slowness up to 2"),
     "door of a second, made by hand": ("th.Door([3], '1.6/s')", "flow of a door must be robots a step, not '1.6/s'; make_doors takes both"),
     "door of places": ("th.Door([(3, 1)], 1)", "cells of a door must be numbers in a list or a flat array, not [(3, 1)]"),
     "flow in words": ("th.Scenario(area, (5, 3), doors=[((5, 3), 'half')])", "capacity of a door must be a number of robots above 0: a step, such as 2, 0.5 or 1/3, or in metres a second, such as 1.6/s; not 'half'"),

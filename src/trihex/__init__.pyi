@@ -14,6 +14,7 @@ from .areas import (
     make_warehouse_area as make_warehouse_area,
     random_robots as random_robots,
     random_start_times as random_start_times,
+    slowness_of as slowness_of,
     start_times_of as start_times_of,
 )
 from .bounds import (
@@ -59,6 +60,7 @@ from .formats import (
     read_plan as read_plan,
     read_run as read_run,
     read_scenario as read_scenario,
+    read_slowness as read_slowness,
     read_start_times as read_start_times,
     read_starts as read_starts,
     read_trajectories as read_trajectories,

@@ -110,6 +110,9 @@ CASES = {
     "start in words": ("x_metres,y_metres\n1.2,two\n", [*PLAN[:-4], "--planner", "greedy", "--starts", "bad"], "bad: line 2: must be two numbers, not '1.2,two'"),
     "start time below 0": ("x,y,start\n1,1,-2\n", ["plan", "world.txt", "--planner", "greedy", "--starts", "bad"], "bad: line 2: start must be a number from 0, not '-2'"),
     "start times of no law": (None, ["plan", "world.txt", "--planner", "greedy", "--robots", "1", "--start-times", "gauss:3,1"], "start times must be drawn as one of constant:time, uniform:least,most, normal:mean,sd, lognormal:mean,sd, such as 'lognormal:30,15', not 'gauss:3,1'"),
+    "speed of nobody": ("x,y,speed\n1,1,0\n", ["plan", "world.txt", "--planner", "greedy", "--starts", "bad"], "bad: line 2: speed must be a number above 0, not '0'"),
+    "slowness of a snail": ("x,y,slowness\n1,0,99\n", ["plan", "world.txt", "--planner", "greedy", "--starts", "bad"], "slowness[0] must be a whole number from 1 to 30: no move may last longer than 30 ticks, not 99"),
+    "slowness in a search": ("x,y,slowness\n1,0,3\n", ["plan", "world.txt", "--planner", "astar", "--starts", "bad"], "planner 'astar' needs robots that are all as fast, without slowness, not slowness up to 3"),
     "scen of another map": ("version 1\n0\ta.map\t9\t9\t0\t0\t1\t1\t2\n", ["plan", "world.txt", "--planner", "greedy", "--starts", "bad"], "bad: line 2: is for an area of 9 x 9 cells, not of 3 x 2"),
     "scen with a column too few": ("version 1\n0\ta.map\t3\t2\t0\t0\t1\t1\n", ["plan", "world.txt", "--planner", "greedy", "--starts", "bad"], "bad: line 2: must have 9 columns *, not 8"),
     # outputs

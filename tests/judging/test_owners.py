@@ -10,7 +10,7 @@ import trihex as th
 from tests.judging.test_audit import NE, SE, SW, E, N, S, W, nonsense, squares
 from tests.oracles.owners import judge, keeps_to_the_rules
 from tests.oracles.wanderers import wandering_plan
-from tests.strategies import random_scenario, with_start_times
+from tests.strategies import random_scenario, with_slowness, with_start_times
 from tests.sweeps import swept
 from trihex.areas import CLOCKS, FOLLOWINGS
 from trihex.judging.conflict import KINDS
@@ -32,6 +32,8 @@ CLEAN = [
     squares("aDb", [[E], [*AFTER[:3], W]], destination_capacity=1, **ALLOW),  # one owns D from 2.5 to 5, one from 5.5
     squares("aDb", [[E], [*AFTER, W]], destination_capacity=1, **FORBID),
     squares("ab DD", [[SE], [*AFTER, WAIT, WAIT, SW]], **ALLOW),  # the vertex is free after seven ticks
+    squares("abD", [[WAIT, WAIT, E, E], [E]], slowness=[2, 5]),  # a comes after 3 steps, b is gone after 2.5
+    squares("abD", [[WAIT, WAIT, WAIT, E, E], [E]], slowness=[1, 3], following="forbid"),
 ]
 BOTH = "robots 0 and 1 both own cell"
 # Each rule broken once: the plan, the kind, and how the conflict reads.
@@ -41,6 +43,7 @@ BROKEN = [
     (squares("ab.D", [[E, WAIT, E, E], [E, WAIT, WAIT, E]], **ALLOW), "cell", f"step 9: {BOTH} (2, 0)"),
     (squares("abD", [[*AFTER[1:], E, WAIT, E], [E]], **FORBID), "cell", f"step 5: {BOTH} (1, 0)"),
     (squares("abD", [[E, E], [E]], **STEPS), "cell", f"step 1: {BOTH} (1, 0)"),
+    (squares("abD", [[WAIT, E, E], [E]], slowness=[1, 5]), "cell", f"step 2: {BOTH} (1, 0)"),
     (
         squares("abD ...", [[E, E], [W, S, E, NE]], **ALLOW),
         "exchange",
@@ -147,7 +150,8 @@ def timed_scenario(seed, **limits):
     rng, scenario = np.random.default_rng(seed), random_scenario(seed, **limits)
     clock, following = CLOCKS[rng.integers(2)], FOLLOWINGS[rng.integers(2)]
     timed = replace(scenario, waiting_cost=None, clock=clock, following=following)
-    return replace(timed, following="forbid") if timed.is_stepwise else timed
+    timed = replace(timed, following="forbid") if timed.is_stepwise else timed
+    return with_slowness(timed, seed) if seed % 2 else timed
 
 
 def mutated(plan, rng):

@@ -96,7 +96,7 @@ class Record:
             if not is_later and tick < self.scenario.start_times[robot]:
                 self.conflicts.append(("start", tick + 1, (robot,), (at,)))
             to = self.target(index, action, at)
-            ticks = 1 if action == JUMP else ticks_of_move(self.scenario, at, to)
+            ticks = 1 if action == JUMP else ticks_of_move(self.scenario, at, to) * int(self.scenario.slowness[robot])
             forbids = self.scenario.following == "forbid"
             self.stays.append(Stay(since, is_later, robot, 2 * tick + (2 if forbids else 1) * ticks, ("cell", at)))
             if action == JUMP:

@@ -55,7 +55,8 @@ class Wanderers:
     def try_move(self, robot, target, tick):
         """Let a robot begin a move if the rules allow it."""
         here, forbids = self.place[robot], self.scenario.following == "forbid"
-        ticks, vertex = ticks_of_move(self.scenario, here, target), self.rules.vertex(here, target)
+        ticks = ticks_of_move(self.scenario, here, target) * int(self.scenario.slowness[robot])
+        vertex = self.rules.vertex(here, target)
         begin, middle, end = 2 * tick, 2 * tick + ticks, 2 * (tick + ticks)
         comes, leaves = (begin, end) if forbids else (middle, middle)
         is_goal = self.far[target] == 0

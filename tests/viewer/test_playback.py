@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 
 import trihex as th
-from tests.strategies import random_scenario, scenarios
+from tests.strategies import random_scenario, scenarios, with_slowness
 from trihex.kernels.codes import JUMP, WAIT
 from trihex.pictures.ways import bends_of, places_between
 from trihex.planners import make_plan
@@ -81,7 +81,9 @@ def test_curves_in_ticks_are_those_of_robots_followed_one_by_one(seed):
                 done = on_way + 1 if on_way is not None else 0 if tick == 0 else len(cells) - 1
                 spent = min(tick, ticks[-1])
                 # Whoever has begun a move must end it, and goes on from there.
-                ahead = ticks[done] - spent + int(n_scheme.distance_of_cell(cells[done]))
+                ahead = (
+                    ticks[done] - spent + int(n_scheme.distance_of_cell(cells[done])) * int(scenario.slowness[robot])
+                )
                 curves[2:, tick] += (tick >= ticks[-1], spent, spent + ahead)
     for name, curve in zip(("moving", "waiting", "arrived", "spent", "least_total"), curves, strict=True):
         assert getattr(playback, name).tolist() == curve.tolist(), name
@@ -129,9 +131,10 @@ def test_the_page_shows_robots_where_the_plan_has_them(open_viewer):
 
 
 def wandering_plan(seed):
-    """Robots that wander, some into the destination, by clock costs; they may collide."""
+    """Robots that wander, some into the destination, by clock costs, some slower; they may collide."""
     rng = np.random.default_rng(seed)
     scenario = replace(random_scenario(seed, sides=(4, 8)), clock="costs", waiting_cost=None, corners="allow")
+    scenario = with_slowness(scenario, seed) if seed % 3 == 0 else scenario
     area, lists = scenario.area, []
     for cell in scenario.robots.tolist():
         own: list[int] = []

@@ -95,6 +95,10 @@ from .schedule import (
 from .seconds import (
     seconds_per_step as seconds_per_step,
 )
+from .slowness import (
+    check_as_fast as check_as_fast,
+    slowness_of as slowness_of,
+)
 from .start_times import (
     check_distribution as check_distribution,
     random_start_times as random_start_times,

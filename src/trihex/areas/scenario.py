@@ -18,16 +18,17 @@ from trihex.areas.flow import flow_from, flow_in_words
 from trihex.areas.nearest import nearest_free_cell
 from trihex.areas.places import cells_from
 from trihex.areas.schedule import Schedule, schedule_of
+from trihex.areas.slowness import check_following, is_slower, make_slowness
+from trihex.areas.start_times import make_start_times
 from trihex.areas.tessellation import CLOCKS
 from trihex.areas.zone import Zone
-from trihex.errors import ScenarioError, check_choice, check_type, check_whole, is_whole
-from trihex.record import Record, counted, read_only, short
+from trihex.errors import ScenarioError, check_choice, check_type, check_whole
+from trihex.record import Record, counted, read_only
 
 CROSSINGS = ("forbid", "allow")
 CORNERS = ("allow", "no-squeeze", "no-cut")
 FOLLOWINGS = ("allow", "forbid")
 _MOST = 2**30  # the largest whole number that a parameter may be: sums of a few fit into int32
-_MOST_START_TIME = 2**24  # steps; planners count half ticks in int32
 _BLOCK = 1 << 24  # sites a kernel looks at in one call, even; Ctrl-C works in between
 
 
@@ -74,6 +75,10 @@ class Scenario(Record):
         Places that only so many robots enter in a step, exits or passages: flows by the names of zones, such as
         ``{"north": "1.6/s"}``, or pairs (places, flow), or what `make_doors` makes. Where a destination is one, its
         flow stands in the place of a `destination_capacity` that is a fraction; one that is whole holds as well.
+    slowness : sequence of int, or int, optional
+        How many times as long as those of the fastest the moves of each robot last and, so, cost; see `slowness_of`.
+        A wait lasts and costs as much for all. In an area with a frame following must be "forbid" where some are
+        slower, and is unless set. Kept as int64. Default: 1.
 
     Raises
     ------
@@ -102,6 +107,7 @@ class Scenario(Record):
     following: str = None  # type: ignore[assignment]
     start_times: NDArray[np.int64] = ()  # type: ignore[assignment]
     doors: tuple[Door, ...] = ()
+    slowness: NDArray[np.int64] = ()  # type: ignore[assignment]
 
     def __post_init__(self) -> None:
         check_type("area", self.area, Area, error=ScenarioError)
@@ -117,7 +123,8 @@ class Scenario(Record):
             flow = flow_from("destination_capacity", self.destination_capacity, area)
             self._set("destination_capacity", int(flow) if flow.denominator == 1 else flow)
         if self.following is None:
-            self._set("following", usual_following(area.tessellation, area.frame))
+            follows = "forbid" if area.frame is not None and is_slower(self.slowness) else None
+            self._set("following", follows or usual_following(area.tessellation, area.frame))
         check_choice("following", self.following, FOLLOWINGS, ScenarioError)
         if area.frame is not None:
             check_cell_size(area.tessellation, area.frame, self.following)
@@ -131,7 +138,11 @@ class Scenario(Record):
             raise ScenarioError("destinations must name at least one cell")
         self._set("destinations", read_only(_without_repeats(self.destinations)))
         self._check_distinct()
-        self._set("start_times", read_only(_start_times(self.start_times, self.robot_count)))
+        self._set("start_times", read_only(make_start_times(self.start_times, self.robot_count)))
+        longest = int(self.duration_of_direction.max())
+        self._set("slowness", read_only(make_slowness(self.slowness, self.robot_count, longest)))
+        if area.frame is not None and self.has_slowness:
+            check_following(self.following)
 
     def _set_clock(self) -> None:
         """Set what costs the area has by the clock, and what waiting costs."""
@@ -164,6 +175,8 @@ class Scenario(Record):
         odd += [f"door {door.in_words()}" for door in self.doors]
         if self.has_start_times:
             odd.append(f"start_times=0..{self.start_times.max()}")
+        if self.has_slowness:
+            odd.append(f"slowness={self.slowness.min()}..{self.slowness.max()}")
         goals = counted(self.destinations.size, "destination")
         return ", ".join([self.area.in_words(), goals, counted(self.robot_count, "robot"), *odd])
 
@@ -176,6 +189,11 @@ class Scenario(Record):
     def has_start_times(self) -> bool:
         """Whether some robot may not begin to move at once."""
         return bool(self.start_times.any())
+
+    @cached_property
+    def has_slowness(self) -> bool:
+        """Whether moves of some robot last longer than `duration_of_direction` says."""
+        return bool((self.slowness > 1).any())
 
     @property
     def has_flows(self) -> bool:
@@ -204,13 +222,14 @@ class Scenario(Record):
 
     @property
     def duration_of_direction(self) -> NDArray[np.int32]:
-        """How many ticks a move in each direction lasts; waiting lasts one. All 1 where the clock is "steps"."""
+        """How many ticks a move of the fastest lasts by direction; a wait lasts one. All 1 by the clock "steps"."""
         return self.area.tessellation.duration_of_direction
 
     @property
     def is_stepwise(self) -> bool:
         """Whether all moves last one step and others may move up at once: time in steps alone, as in the paper."""
-        return self.following == "allow" and bool((self.duration_of_direction == 1).all())
+        has_steps = bool((self.duration_of_direction == 1).all()) and not self.has_slowness
+        return self.following == "allow" and has_steps
 
     @property
     def step_word(self) -> str:
@@ -296,8 +315,8 @@ class Scenario(Record):
         return read_only(closed)
 
     def with_robots(self, robots: Any, seed: int | None = None) -> Scenario:
-        """Return the same scenario with other robots, who may begin to move at once."""
-        return replace(self, robots=robots, seed=seed, start_times=())  # type: ignore[arg-type]
+        """Return the same scenario with other robots, who may begin to move at once and are all as fast."""
+        return replace(self, robots=robots, seed=seed, start_times=(), slowness=())  # type: ignore[arg-type]
 
 
 def random_robots(area: Area, count: int, seed: int = 0, *, avoid: Any = ()) -> NDArray[np.int64]:
@@ -356,24 +375,6 @@ def _check_distinct(area: Area, robots: NDArray[np.int64]) -> None:
         one, other = int(order[same[0]]), int(order[same[0] + 1])
         where = area.name_of_cell(int(robots[one]))
         raise ScenarioError(f"two robots must not share a cell; robots {one} and {other} both start at {where}")
-
-
-def _start_times(given: Any, count: int) -> NDArray[np.int64]:
-    """Return the start time of each of `count` robots, given for each, as one for all, or not at all."""
-    if is_whole(given):
-        given = [given] * count
-    times = np.asarray(given)
-    if times.size == 0:
-        return np.zeros(count, dtype=np.int64)
-    if times.dtype.kind not in "iu" or times.ndim != 1:
-        raise ScenarioError(f"start_times must be whole numbers, one for each robot, not {short(given)}")
-    if times.size != count:
-        raise ScenarioError(f"start_times must be one for each of {counted(count, 'robot')}, not {times.size}")
-    wrong = np.flatnonzero((times < 0) | (times > _MOST_START_TIME))
-    if wrong.size:
-        rule = f"a whole number from 0 to {_MOST_START_TIME}"
-        raise ScenarioError(f"start_times[{wrong[0]}] must be {rule}, not {times[wrong[0]]}")
-    return times.astype(np.int64)
 
 
 def _without_repeats(cells: NDArray[np.int64]) -> NDArray[np.int64]:

@@ -29,7 +29,8 @@ class EarliestArrivals(Record):
     Parameters
     ----------
     name : str
-        "cut": robots wait only where they must pass the narrowest places; "optimum": a plan attains it at all steps.
+        "cut": robots wait only where they must pass the narrowest places; "distance": nowhere, as where they have
+        slowness; "optimum": a plan attains it at all steps.
     steps : int64 array
         Ascending; the i-th robot to arrive, whoever it is, arrives in this step (tick) at best. Robots that cannot
         arrive have none.
@@ -61,6 +62,9 @@ def arrivals_bound(scenario: Scenario) -> EarliestArrivals:
     """
     check_type("scenario", scenario, Scenario)
     demand = make_demand(make_n_scheme(scenario))
+    there = np.zeros(np.count_nonzero(np.isin(scenario.robots, scenario.destinations)), dtype=np.int64)
+    if scenario.has_slowness:
+        return EarliestArrivals("distance", np.append(there, np.sort(demand.steps)))
     entries = entry_headways(demand.nodes)
     cuts = []
     if entries.size * demand.nodes.count <= _MOST_SENT:
@@ -69,5 +73,4 @@ def arrivals_bound(scenario: Scenario) -> EarliestArrivals:
     if scenario.has_flows:
         np.maximum(queued, arrivals_past_doors(demand), out=queued)
         hold_up_at_exits(demand, queued)
-    there = np.count_nonzero(np.isin(scenario.robots, scenario.destinations))
-    return EarliestArrivals("cut", np.append(np.zeros(there, dtype=np.int64), queued))
+    return EarliestArrivals("cut", np.append(there, queued))

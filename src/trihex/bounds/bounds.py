@@ -11,6 +11,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from trihex.areas import check_as_fast
 from trihex.bounds.bound import LowerBound
 from trihex.bounds.costs import least_cost, sum_of_distances, waits_before_starts
 from trihex.bounds.cuts import Cut, find_cuts
@@ -49,7 +50,9 @@ def make_lower_bound(n_scheme: NScheme, *, progress: Callable[[int, int], None] 
     check_type("n_scheme", n_scheme, NScheme)
     makers = [distance_bound, slot_bound, cut_bound]
     scenario = n_scheme.scenario
-    if scenario.destinations.size > 1 and scenario.area.free_count <= _MOST_CELLS:
+    if scenario.has_slowness:
+        makers = [distance_bound]
+    elif scenario.destinations.size > 1 and scenario.area.free_count <= _MOST_CELLS:
         makers.append(queue_bound)
     bounds = []
     for make in makers:
@@ -73,6 +76,7 @@ def slot_bound(n_scheme: NScheme) -> LowerBound:
     forbidden, at most the destination's capacity. Where moves last or nobody may follow at once, so many in a headway.
     """
     check_type("n_scheme", n_scheme, NScheme)
+    check_as_fast(n_scheme.scenario, "the slot bound")
     demand = make_demand(n_scheme)
     slots = np.sort(demand.steps)
     queue_up(slots, entry_headways(demand.nodes))
@@ -95,6 +99,7 @@ def cut_bound(
     """
     check_whole("most_gates", most_gates, 0, None, PlanError)
     check_type("n_scheme", n_scheme, NScheme)
+    check_as_fast(n_scheme.scenario, "the cut bound")
     return LowerBound("cut", least_cost(n_scheme, _steps_past_gates(make_demand(n_scheme), most_gates, progress)))
 
 

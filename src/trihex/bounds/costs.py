@@ -31,8 +31,9 @@ def least_cost(n_scheme: NScheme, steps: int) -> int:
 
 
 def sum_of_distances(n_scheme: NScheme) -> int:
-    """Return the sum of the distances of the robots that can arrive."""
-    return int(_at_robots(n_scheme, n_scheme.distance_of_site).sum())
+    """Return the sum of what the ways of the robots that can arrive cost, from their distances and their slowness."""
+    distance = n_scheme.distance_of_cell(n_scheme.scenario.robots).astype(np.int64)
+    return int((distance * n_scheme.scenario.slowness)[distance != NOT_REACHED].sum())
 
 
 def waits_before_starts(n_scheme: NScheme) -> int:

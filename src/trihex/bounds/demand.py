@@ -52,7 +52,8 @@ class Demand(Record):
     @cached_property
     def steps(self) -> NDArray[np.int64]:
         """Least number of ticks in which each of them can arrive, descending."""
-        return read_only(self.nodes.steps_of_site[self.sites] + self.start_times)
+        own = self.nodes.steps_of_site[self.sites] * self.scenario.slowness[self._robots]
+        return read_only(own + self.start_times)
 
 
 def make_demand(n_scheme: NScheme) -> Demand:

@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from trihex.areas import check_as_fast
 from trihex.bounds.approaches import Approaches, find_approaches, find_cheap_approaches
 from trihex.bounds.bound import LowerBound
 from trihex.bounds.costs import left_field, shares
@@ -39,6 +40,7 @@ def queue_bound(n_scheme: NScheme) -> LowerBound:
     60
     """
     check_type("n_scheme", n_scheme, NScheme)
+    check_as_fast(n_scheme.scenario, "the queue bound")
     demand = make_demand(n_scheme)
     if demand.sites.size == 0:
         return LowerBound("queue", 0)

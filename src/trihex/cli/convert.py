@@ -98,13 +98,14 @@ def _convert_plan(
 
 
 def _convert_starts(source: Path, target: Path, area: Path | None, options: dict[str, Any]) -> None:
-    from trihex.formats import read_start_times, read_starts, write_starts
+    from trihex.formats import read_slowness, read_start_times, read_starts, write_starts
 
     check_outputs((target, (".csv",), "starts"))
     if area is None:
         raise wrong_use(f"{source} holds starts in an area: add --area AREA")
     own = read_described(area, options).area
-    write_starts(own, read_starts(source, own), target, start_times=read_start_times(source))
+    times, slowness = read_start_times(source), read_slowness(source)
+    write_starts(own, read_starts(source, own), target, start_times=times, slowness=slowness)
     tell_written(target)
 
 

@@ -148,7 +148,7 @@ def robot_options(command: Command) -> Command:
             type=PATH,
             metavar="FILE",
             help="CSV of their cells, header x,y, or places, header x_metres,y_metres, and perhaps when they begin to "
-            "move, start; or a MovingAI .scen.",
+            "move, start, and how fast they are, speed or slowness; or a MovingAI .scen.",
         ),
         click.option(
             "--robots", type=Whole(0), help="How many robots to draw at random, or to take from --starts, the first."
@@ -230,14 +230,14 @@ def _changed(draft: Draft, options: dict[str, Any]) -> Draft:
     if options.get("destination"):
         cells = [_cell_of(draft.area, place) for place in options["destination"]]
         changes["destinations"] = cells_from(draft.area, cells, "--destination", ScenarioError)
-    return replace(draft, **changes, **_robots_of(draft, options))
+    return replace(draft, **changes, **_robots_of(draft, options)).paced()
 
 
 def _robots_of(draft: Draft, options: dict[str, Any]) -> dict[str, Any]:
     """Return what the options say of the robots of a draft, by the names of its fields."""
     from trihex.areas import check_distribution
     from trihex.files import read_bytes
-    from trihex.formats import format_of, read_start_times, read_starts
+    from trihex.formats import format_of, read_slowness, read_start_times, read_starts
 
     count, starts, seed = options.get("robots"), options.get("starts"), options.get("seed")
     times = options.get("start_times")
@@ -248,7 +248,7 @@ def _robots_of(draft: Draft, options: dict[str, Any]) -> dict[str, Any]:
     changes: dict[str, Any] = {"start_times": times}
     draws_times = isinstance(times, str)
     if count is not None and starts is None:
-        return {**changes, "random_count": count, "robots": None, "seed": seed}
+        return {**changes, "random_count": count, "robots": None, "seed": seed, "slowness": None}
     if seed is not None and not draws_times and count is not None:
         raise wrong_use("--seed draws robots; with --starts none are drawn")
     if seed is not None and not draws_times and (starts is not None or draft.random_count is None):
@@ -259,6 +259,8 @@ def _robots_of(draft: Draft, options: dict[str, Any]) -> dict[str, Any]:
             raise wrong_use(f"--robots takes the first of {starts}: at most {robots.size}, not {count}")
         if times is None and own is not None:
             changes["start_times"] = own[:count]
+        slowness = read_slowness(starts)
+        changes["slowness"] = None if slowness is None else slowness[:count]
         if format_of(read_bytes(starts), starts) == "scen":
             click.echo(f"trihex: goals of {starts} are not used: all robots go to the destinations", err=True)
         return {**changes, "robots": robots[:count], "random_count": None, "seed": seed}

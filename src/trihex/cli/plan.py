@@ -138,6 +138,10 @@ def _check_before(draft: Any, *, straight: bool, certificate: bool, is_order: bo
     ):  # it is told a little later that there is none
         return
     scenario = replace(draft, robots=None, random_count=None).complete()
+    if draft.has_slowness:
+        option = "straight" if straight else "certificate" if certificate else "out"
+        order = " for an order of who waits for whom" * (option == "out")
+        raise wrong_use(f"--{option} needs robots that are all as fast{order}")
     if certificate:
         from trihex.optimum import check_certifiable
 

@@ -28,6 +28,7 @@ def report_lines(report: Report) -> list[str]:
         f"the last in {scenario.step_word} {report.steps}",
         f"total time {report.total_time} ({report.total_distance} moving, {report.total_waiting} waiting{before}), "
         f"lower bound {report.lower_bound} ({report.lower_bound_name}), gap {gap}",
+        *slowness_lines(scenario),
         *exit_lines(report.arrivals_of_exit, report.arrived_count),
         *door_lines(numbers),
         *([seconds_line(numbers, scenario.step_word)] if numbers["last_arrival_seconds"] is not None else []),
@@ -36,6 +37,13 @@ def report_lines(report: Report) -> list[str]:
         f"a robot turns by {numbers['turning']:.0f} degrees in the mean",
         *([seconds] if seconds else []),
     ]
+
+
+def slowness_lines(scenario: Scenario) -> list[str]:
+    """Return a line that says how slow robots are, or none where all are as fast."""
+    own = scenario.slowness
+    words = "moves of slower robots last"
+    return [f"{words} up to {own.max()} times as long, {own.mean():.3g} in the mean"] if scenario.has_slowness else []
 
 
 def exit_lines(arrivals: Mapping[str, int], arrived: int) -> list[str]:

@@ -54,6 +54,7 @@ from .starts.csv import (
     write_starts as write_starts,
 )
 from .starts.starts import (
+    read_slowness as read_slowness,
     read_start_times as read_start_times,
     read_starts as read_starts,
 )

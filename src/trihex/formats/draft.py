@@ -20,6 +20,7 @@ from trihex.areas import (
     random_robots,
     random_start_times,
     seconds_per_step,
+    slowness_of,
     start_times_of,
 )
 from trihex.errors import ScenarioError
@@ -38,6 +39,9 @@ class Draft(Record):
     start_times : int64 or float64 array of shape (n,), or str, optional
         Of the robots: steps if whole numbers, else as `start_times_of` takes them; or a distribution to draw them from
         by `seed`, as for `random_start_times`.
+    slowness : int64 or float64 array of shape (n,), optional
+        Of the robots: as `Scenario` takes it if whole numbers, else their speeds, in an area with a frame as parts of
+        the `speed` in `outputs`; see `paced`.
     random_count : int, optional
         How many robots to draw by `seed`, instead of `robots`.
     seed : int, optional
@@ -73,12 +77,32 @@ class Draft(Record):
     notes: tuple[str, ...] = ()
     doors: tuple[tuple[Any, Any], ...] = ()
     start_times: NDArray[Any] | str | None = None
+    slowness: NDArray[Any] | None = None
 
     @property
     def has_start_times(self) -> bool:
         """Whether robots may not all begin to move at once."""
         times = self.start_times
         return isinstance(times, str) or (times is not None and bool(np.any(times)))
+
+    @property
+    def has_slowness(self) -> bool:
+        """Whether some robots are slower than others may be."""
+        return self.slowness is not None and bool(np.any(self.whole_slowness() > 1))
+
+    def whole_slowness(self) -> NDArray[np.int64]:
+        """Return the slowness of robots of which it is known, or their speeds are."""
+        given = np.asarray(self.slowness)
+        if given.dtype.kind != "f":
+            return given
+        return slowness_of(given, fastest=None if self.area.frame is None else self.outputs.get("speed"))
+
+    def paced(self) -> Draft:
+        """Return the same draft; in an area with a frame the `speed` of outputs, if there is none, is the highest."""
+        given = self.slowness
+        if given is None or given.dtype.kind != "f" or given.size == 0 or self.area.frame is None:
+            return self
+        return replace(self, outputs={"speed": float(given.max()), **self.outputs})
 
     def with_notes(self, notes: Iterable[str]) -> Draft:
         """Return the same draft with things that the reader of a file wants to be told."""
@@ -98,6 +122,9 @@ class Draft(Record):
         if len(destinations) == 0:
             raise ScenarioError("destinations must name at least one cell")
         names = ("crossing", "corners", "clock", "following")
+        rules = {name: rule for name in names if (rule := getattr(self, name)) is not None}
+        if self.has_slowness and self.area.frame is not None:
+            rules.setdefault("following", "forbid")  # as is usual there
         capacity, doors = self.flows()
         scenario = kind(
             self.area,
@@ -107,16 +134,18 @@ class Draft(Record):
             destination_capacity=capacity,
             seed=self.seed,
             doors=doors,
-            **{name: rule for name in names if (rule := getattr(self, name)) is not None},
+            **rules,
         )
         if self.random_count is not None:
             seed = self.seed or 0
             scenario = scenario.with_robots(_draw(scenario, self.random_count, seed), seed)
         elif self.robots is None:
             return scenario
-        if self.start_times is None:
+        if self.start_times is None and self.slowness is None:
             return scenario
-        return replace(scenario, start_times=self.steps_of_starts(scenario.area, scenario.robot_count))
+        times = self.steps_of_starts(scenario.area, scenario.robot_count)
+        slowness = scenario.slowness if self.slowness is None else self.whole_slowness()
+        return replace(scenario, start_times=times, slowness=slowness)
 
     def steps_of_starts(self, area: Area, count: int) -> NDArray[np.int64]:
         """Return the start times of so many robots, in steps of the area."""
@@ -162,4 +191,6 @@ def draft_of(scenario: Scenario) -> Draft:
     )
     given = {name: getattr(scenario, name) for name in names}
     start_times = scenario.start_times if scenario.has_start_times else None
-    return Draft(scenario.area, waiting_cost=waiting_cost, start_times=start_times, doors=doors, **given)
+    slowness = scenario.slowness if scenario.has_slowness else None
+    given |= {"start_times": start_times, "slowness": slowness}
+    return Draft(scenario.area, waiting_cost=waiting_cost, doors=doors, **given)

@@ -20,6 +20,7 @@ PLAN_HEADER = "robot,step,x,y,action,time"
 STARTS_HEADER = "x,y"
 STARTS_HEADER_IN_METRES = "x_metres,y_metres"
 START_COLUMN = "start"
+SLOWNESS_COLUMN, SPEED_COLUMN = "slowness", "speed"
 # tomllib and json take some 30 times as much while they read.
 MAX_TOML = MAX_JSON = 2**26
 MAX_WKT = 2**28
@@ -107,7 +108,7 @@ _FORMATS = (
     Format("plan", "a plan (.csv)", "plan", "plans.csv.parse_plan_csv", _first_line(PLAN_HEADER)),
     Format(
         "starts", "starts (.csv)", "starts", "starts.csv.parse_starts",
-        _first_line(f"(?:{STARTS_HEADER}|{STARTS_HEADER_IN_METRES})(?:,{START_COLUMN})?"),
+        _first_line(f"(?:{STARTS_HEADER}|{STARTS_HEADER_IN_METRES})(?:,{START_COLUMN})?(?:,{SLOWNESS_COLUMN}|,{SPEED_COLUMN})?"),
     ),
     Format(
         "movingai", "a MovingAI map", "area", "areas.movingai.parse_movingai",

@@ -30,6 +30,7 @@ def make_law(scenario: Scenario) -> Law:
         forbids_crossing=scenario.forbids_crossing,
         capacity=scenario.entry_limit,
         duration=scenario.duration_of_direction,
+        slowness=scenario.slowness.astype(np.int32),
         forbids_following=scenario.following == "forbid",
         doors=_guarded_cells(scenario),
     )

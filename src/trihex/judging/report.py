@@ -180,6 +180,7 @@ class Report(Record):
             "total_distance": self.total_distance,
             "total_waiting": self.total_waiting,
             **({"waiting_before_start": self.waiting_before_start} if scenario.has_start_times else {}),
+            **({"slowness": int(scenario.slowness.max())} if scenario.has_slowness else {}),
             "longest_time": self.longest_time,
             "lower_bound": self.lower_bound,
             "lower_bound_name": self.lower_bound_name,

@@ -2,6 +2,8 @@
 
 from typing import NamedTuple
 
+from numba import types
+
 from trihex.kernels.codes import JUMP, WAIT
 from trihex.kernels.signatures import APART, HELPER, IN_I32, IN_I64, IN_U8, TABLE_I32, declared
 
@@ -14,9 +16,16 @@ class Actions(NamedTuple):
     offset: TABLE_I32  # what a direction adds to a site, by parity of the site
     jump_at: IN_I64  # which of the actions are jumps, ascending
     jump_to: IN_I32  # the sites to which they lead
+    slowness: IN_I32  # of each robot: how many times as long its moves last
 
 
 ACTIONS = declared(Actions)
+
+
+@HELPER
+def times_of(robot, action, actions):
+    """Return how many times as much as one of the fastest an action of a robot takes: waits and jumps are alike."""
+    return 1 if action >= JUMP else types.int64(actions.slowness[robot])
 
 
 @HELPER

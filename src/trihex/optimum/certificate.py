@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Scenario
+from trihex.areas import Scenario, check_as_fast
 from trihex.errors import PlanError, check_type
 from trihex.fields import NScheme, make_n_scheme
 from trihex.kernels.codes import NOT_REACHED
@@ -67,6 +67,7 @@ class Certificate(Record):
 
 def check_certifiable(scenario: Scenario) -> None:
     """Raise PlanError unless a plan is a flow that can be proven: time in steps alone, all begin at once, no doors."""
+    check_as_fast(scenario, "a certificate")
     if not scenario.is_stepwise:
         raise PlanError(
             "a certificate needs time in steps alone: clock='steps' and following='allow', "

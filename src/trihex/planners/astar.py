@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from trihex.areas import check_as_fast
 from trihex.fields import NScheme
 from trihex.kernels.codes import NOT_REACHED
 from trihex.planners.recording import Progress
@@ -37,6 +38,7 @@ def plan_astar(n_scheme: NScheme, *, memory_limit: int | None = None, progress: 
         If the table would take more than `memory_limit`.
     """
     scenario = n_scheme.scenario
+    check_as_fast(scenario, "planner 'astar'")
     site = scenario.area.layout.cell_to_site(scenario.robots)
     distance = n_scheme.distance_of_site[site]
     going = np.flatnonzero((distance != NOT_REACHED) & (distance != 0))

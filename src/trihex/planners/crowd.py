@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -31,7 +32,7 @@ class Crowd:
     #: Number in the scenario, and start, of each robot; entry 0 is unused.
     robot: NDArray[np.int32]
     site_of_robot: NDArray[np.int32]
-    #: The distances of all starts together, and the waits until robots may begin to move: no plan takes less.
+    #: What all ways cost from the starts, and the waits until robots may begin to move: no plan takes less.
     total_distance: int
     #: Each region's part of `listed`: the robots that have not arrived.
     first_of_region: NDArray[np.int64]
@@ -54,6 +55,11 @@ class Crowd:
     def start_time(self) -> NDArray[np.int64]:
         """After how many steps each robot may begin to move."""
         return np.append(0, self.scenario.start_times[self.robot[1:]])
+
+    @cached_property
+    def slowness(self) -> NDArray[np.int32]:
+        """How many times as long as those of the fastest the moves of each robot last."""
+        return np.append(1, self.scenario.slowness[self.robot[1:]]).astype(np.int32)
 
     @property
     def going(self) -> int:
@@ -123,12 +129,13 @@ def make_crowd(n_scheme: NScheme, find_regions: Callable[[NDArray[np.int32]], ND
     region = find_regions(site[robot])
     order = _sorted_by(region, _sorted_by(distance[robot], np.arange(robot.size)))
     robot, region = robot[order], region[order]
+    ways = int((distance[robot] * scenario.slowness[robot]).sum())
     count = np.bincount(region, minlength=1)
     return Crowd(
         scenario,
         np.append(0, robot).astype(np.int32),
         np.append(0, site[robot]).astype(np.int32),
-        int(distance[robot].sum(dtype=np.int64)) + scenario.waiting_cost * int(scenario.start_times[robot].sum()),
+        ways + scenario.waiting_cost * int(scenario.start_times[robot].sum()),
         np.cumsum(count) - count,
         count.astype(np.int64),
         np.arange(1, robot.size + 1, dtype=np.int32),

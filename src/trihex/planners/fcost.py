@@ -67,6 +67,8 @@ def _run(n_scheme: NScheme, rule: str, keeps_actions: bool, progress: Progress |
     """
     check_choice("rule", rule, RULES, PlanError)
     scenario = n_scheme.scenario
+    if rule == "paper" and scenario.has_slowness:
+        raise PlanError("rule must not be 'paper' where robots have slowness: in the paper all are as fast")
     if rule == "paper" and not scenario.is_stepwise:
         raise PlanError(
             f"rule must not be 'paper' where clock is {scenario.clock!r} and following {scenario.following!r}: "

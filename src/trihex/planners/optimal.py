@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Scenario
+from trihex.areas import Scenario, check_as_fast
 from trihex.errors import PlanError, check_choice
 from trihex.fields import NScheme
 from trihex.kernels.codes import NOT_REACHED
@@ -96,6 +96,7 @@ def _cheaper(plan: Plan, other: Plan, least: int) -> Plan:
 
 def check_is_flow(scenario: Scenario) -> None:
     """Raise PlanError where it is more than the flow through a node of each step that robots must not do."""
+    check_as_fast(scenario, "planner 'optimal'")
     if scenario.is_stepwise:
         return
     rule = "following='allow', not 'forbid'"

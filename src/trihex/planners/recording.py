@@ -100,6 +100,7 @@ class Recording:
         if not self.keeps_actions:
             return
         dearest = int(self._cost_of_action[: self.crowd.scenario.area.tessellation.direction_count].max())
+        dearest *= int(self.crowd.slowness.max())
         plan = self.crowd.total_distance // dearest
         plan = max(plan, self.total_time // max(dearest, self.crowd.scenario.waiting_cost))
         need = plan + max(self.crowd.going * steps, plan - self._kept)

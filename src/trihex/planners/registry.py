@@ -13,7 +13,7 @@ from difflib import get_close_matches
 from importlib import import_module
 from typing import Any, Literal, overload
 
-from trihex.areas import Scenario, check_possible
+from trihex.areas import Scenario, check_as_fast, check_possible
 from trihex.errors import PlanError, check_choice, check_type
 from trihex.fields import NScheme, field_kernels, make_n_scheme
 from trihex.kernels.needs import use_of
@@ -74,6 +74,8 @@ def check_plannable(name: str, scenario: Scenario) -> None:
         from trihex.planners.optimal import check_is_flow
 
         check_is_flow(scenario)
+    elif name == "astar":
+        check_as_fast(scenario, "planner 'astar'")
 
 
 def options_of(name: str) -> dict[str, Any]:

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Scenario, Tessellation
+from trihex.areas import Scenario, Tessellation, check_as_fast
 from trihex.errors import PlanError, TooLargeError, check_type, check_whole
 from trihex.fields import make_n_scheme
 from trihex.planners.reservations import Reservations
@@ -79,6 +79,7 @@ def straighten(
 
 def check_straightenable(scenario: Scenario) -> None:
     """Raise unless plans of the scenario can be straightened: PlanError for its rules, TooLargeError for its area."""
+    check_as_fast(scenario, "to straighten a plan one")
     if not scenario.is_stepwise:
         raise PlanError(
             "plan must have moves of one step, and robots that may follow at once, to be straightened, not "

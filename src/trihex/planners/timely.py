@@ -25,9 +25,8 @@ class TickRecording(Recording):
         self._time = crowd.start_time * crowd.scenario.waiting_cost
 
     def _steps_of_block(self, first_step: int) -> int:
-        from trihex.planners.kernels.claims import WINDOW
-
-        return min(self.crowd.steps_of_block(), WINDOW - first_step % WINDOW)
+        window = _window_of(self.crowd)
+        return min(self.crowd.steps_of_block(), window - first_step % window)
 
     def _make_rows(self, count: int, block: int, first_step: int, steps: int) -> Any:
         from trihex.kernels.signatures import given
@@ -41,7 +40,7 @@ class TickRecording(Recording):
         from trihex.planners.kernels.tick_rows import pack
 
         packed = np.empty(rows.action.size, dtype=np.uint8)
-        size = pack(rows, self._cost_of_action, self._time, packed)
+        size = pack(rows, self._cost_of_action, self.crowd.slowness, self._time, packed)
         if self.keeps_actions:
             self._rows.append((rows.robot, rows.used, packed[:size].copy()))
             self._kept += size
@@ -86,6 +85,13 @@ def descend_timely(d_scheme: DScheme, keeps_actions: bool, progress: Progress | 
     return simulate(d_scheme, rule, keeps_actions, progress, limit)
 
 
+def _window_of(crowd: Crowd) -> int:
+    """Return how many ticks a vertex has bits for, above which there are as many as moves last."""
+    from trihex.planners.kernels.claims import BITS
+
+    return min(30, BITS - int(crowd.scenario.duration_of_direction.max() * crowd.slowness.max()))
+
+
 def _make_stage(crowd: Crowd, slots: Slots) -> Any:
     """Return `Stage` as kernels know it: nobody has left any cell yet."""
     from trihex.kernels.signatures import given
@@ -98,6 +104,8 @@ def _make_stage(crowd: Crowd, slots: Slots) -> Any:
     clock = given(
         kernels.Clock,
         duration=duration,
+        slowness=crowd.slowness,
+        window=_window_of(crowd),
         follows=scenario.following == "allow",
         shortest=duration.min(),
         headway=scenario.headway // int(duration.min()),

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Scenario
+from trihex.areas import Scenario, check_as_fast
 from trihex.errors import PlanError, check_type
 from trihex.kernels.codes import WAIT
 from trihex.plans.plan import Plan
@@ -103,6 +103,7 @@ class _Waypoints:
 
 def check_orderable(scenario: Scenario) -> None:
     """Raise PlanError unless the order of a plan is all that its rules ask for: a flow is a rule of times."""
+    check_as_fast(scenario, "an order of who waits for whom")
     if scenario.has_flows:
         raise PlanError("dependencies tell who waits for whom, not for how long: doors must have no flow")
 

@@ -112,6 +112,7 @@ class Plan(Motion):
             offset=self.scenario.area.layout.offset_of_direction,
             jump_at=jump_at,
             jump_to=jump_to,
+            slowness=self.scenario.slowness.astype(np.int32),
         )
         return own
 
@@ -134,7 +135,10 @@ class Plan(Motion):
 
     @cached_property
     def duration_of_action(self) -> NDArray[np.int32]:
-        """How many steps (ticks) an action lasts, by its byte: a direction, or `WAIT` and `JUMP`, 1; shape (256,)."""
+        """How many steps (ticks) an action lasts, by its byte: a direction, or `WAIT` and `JUMP`, 1; shape (256,).
+
+        A move of a robot lasts `Scenario.slowness` times as long; see `durations`.
+        """
         duration = np.ones(256, dtype=np.int32)
         duration[: self.scenario.area.tessellation.direction_count] = self.scenario.duration_of_direction
         return read_only(duration)
@@ -142,7 +146,11 @@ class Plan(Motion):
     @cached_property
     def has_steps(self) -> bool:
         """Whether every action lasts one step, so that robot r does ``actions[first_action[r] + s]`` in step s + 1."""
-        return bool((self.scenario.duration_of_direction == 1).all())
+        return bool((self.scenario.duration_of_direction == 1).all()) and not self.scenario.has_slowness
+
+    def durations(self, action: NDArray[np.uint8], slowness: NDArray[np.int64] | np.int64) -> NDArray[np.int64]:
+        """Return how many steps (ticks) actions last that are done by robots of such a slowness."""
+        return np.asarray(self.duration_of_action[action] * np.where(action < JUMP, slowness, 1), dtype=np.int64)
 
     @property
     def last_cell_of_robot(self) -> NDArray[np.int64]:
@@ -178,10 +186,18 @@ class Plan(Motion):
     def last_step_of_robot(self) -> NDArray[np.int64]:
         """The step (tick) in which the last action of each robot ends, 0 without any, shape (robots,)."""
         if self.scenario.clock == "steps":
-            return read_only(np.diff(self.first_action))
+            actions = np.diff(self.first_action)
+            if self.scenario.has_slowness:
+                moves = actions - self._replayed[2] - self._jumps_of_robot
+                actions = actions + (self.scenario.slowness - 1) * moves
+            return read_only(actions)
         # Moves and waits last as long as they cost; a jump costs nothing and lasts one tick.
+        return read_only(self.time_of_robot + self._jumps_of_robot)
+
+    @cached_property
+    def _jumps_of_robot(self) -> NDArray[np.int64]:
         owner = np.searchsorted(self.first_action, self.jumps[:, 0], side="right") - 1
-        return read_only(self.time_of_robot + np.bincount(owner, minlength=self.scenario.robot_count))
+        return read_only(np.bincount(owner, minlength=self.scenario.robot_count))
 
     @property
     def distance_of_robot(self) -> NDArray[np.int64]:
@@ -278,7 +294,8 @@ class Plan(Motion):
         [0, 1, 8]
         """
         first, last = self._range_of_robot(robot)
-        return np.cumsum(np.append(0, self.duration_of_action[self.actions[first:last]]), dtype=np.int64)
+        lasts = self.durations(self.actions[first:last], self.scenario.slowness[robot])
+        return np.cumsum(np.append(0, lasts), dtype=np.int64)
 
     def _range_of_robot(self, robot: int) -> tuple[int, int]:
         robots = self.scenario.robot_count

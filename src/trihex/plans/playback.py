@@ -73,7 +73,7 @@ def make_playback(plan: Plan, n_scheme: NScheme) -> Playback:
         n_scheme.distance_of_site,
         given(kernels.StepSums, moving=moving, waiting=waiting, arriving=arriving, spent=spent, lost=lost),
     )
-    ahead = n_scheme.distance_of_site[start][plan.arrived].astype(np.int64)
-    lost[0] += ahead[ahead != NOT_REACHED].sum()
+    ahead = n_scheme.distance_of_site[start].astype(np.int64)
+    lost[0] += (ahead * scenario.slowness)[plan.arrived & (ahead != NOT_REACHED)].sum()
     arrays = (moving, waiting, np.cumsum(arriving), np.cumsum(spent), np.cumsum(lost))
     return Playback(plan, *(read_only(array) for array in arrays))

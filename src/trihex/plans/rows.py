@@ -86,7 +86,11 @@ def cells_of_rows(plan: Plan, first_row: NDArray[np.int64]) -> NDArray[np.int64]
 def steps_of_actions(plan: Plan, robot: int = 0, last: int | None = None) -> NDArray[np.int64]:
     """Return the step (tick) in which each action of a plan, or of some of its robots, ends, shape (actions,)."""
     first = plan.first_action[robot : None if last is None else last + 1]
-    end = np.cumsum(plan.duration_of_action[plan.actions[first[0] : first[-1]]], dtype=np.int64)
+    action = plan.actions[first[0] : first[-1]]
+    lasts: NDArray[np.signedinteger] = plan.duration_of_action[action]
+    if plan.scenario.has_slowness:
+        lasts = plan.durations(action, np.repeat(plan.scenario.slowness[robot:last], np.diff(first)))
+    end = np.cumsum(lasts, dtype=np.int64)
     return np.asarray(end - np.repeat(np.append(0, end)[first[:-1] - first[0]], np.diff(first)))
 
 

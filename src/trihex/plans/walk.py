@@ -97,7 +97,7 @@ class Walk:
         """Return how much of what each robot does is done after a share of the step that follows, from 0 to 1."""
         if self._cursor is None:
             return share
-        duration: NDArray[np.int32] = self.plan.duration_of_action[self.action_of_robot]
+        duration = self.plan.durations(self.action_of_robot, self.plan.scenario.slowness)
         return np.asarray((self.step - self._cursor[1] + share) / duration)
 
     def _index_of_action(self) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:

@@ -94,6 +94,7 @@ class AfreshVariations:
             destinations=destinations,
             robots=scenario.robots[stays],
             start_times=scenario.start_times[stays],
+            slowness=scenario.slowness[stays],
             doors=tuple(door for door in doors if door.cells.size),
         )
 

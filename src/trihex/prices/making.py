@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from trihex.areas import cells_from
+from trihex.areas import cells_from, check_as_fast
 from trihex.bounds import choke_cells
 from trihex.errors import PlanError, check_choice, check_type
 from trihex.fields import NScheme, make_n_scheme
@@ -77,6 +77,7 @@ def make_prices(
     [[-1, 60, -1], [-1, 40, -1], [-1, -1, -1]]
     """
     check_type("plan", plan, Plan)
+    check_as_fast(plan.scenario, "a price")
     kinds = (kinds,) if isinstance(kinds, str) else tuple(kinds)
     for kind in kinds:
         check_choice("kinds", kind, KINDS, PlanError)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from trihex.areas import Area, Scenario, cells_from
+from trihex.areas import Area, Scenario, cells_from, check_as_fast
 from trihex.errors import ExecutionError, check_choice, check_many, check_number, check_type, is_whole
 from trihex.fields import LivingField, NScheme, Repair, field_kernels, make_n_scheme
 from trihex.kernels.codes import UNDERWAY
@@ -81,6 +81,7 @@ class Execution:
     ) -> None:
         check_type("scenario", scenario, Scenario)
         check_type("n_scheme", n_scheme, NScheme, type(None))
+        check_as_fast(scenario, "an execution")
         check_choice("planner of an execution", planner, dict.fromkeys((*STEPPERS, *PLANNERS)), ExecutionError)
         if budget is not None:
             check_number("budget, in seconds,", budget, 0, float("inf"), ExecutionError)
@@ -359,6 +360,7 @@ class Execution:
             destinations=field.world.destination_cells,
             robots=area.layout.site_to_cell(self.fleet.site[robots]),
             start_times=self.fleet.start_times_left[robots],
+            slowness=self.scenario.slowness[:1].repeat(robots.size),
         )
         object.__setattr__(scenario, "moves", read_only(field.moves.copy()))  # the cached property, known already
         return NScheme(scenario, read_only(field.distance_of_site.copy())), robots

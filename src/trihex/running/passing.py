@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from trihex.areas import check_as_fast
 from trihex.errors import PlanError, check_number, check_type, check_whole
 from trihex.kernels.codes import JUMP, LATE, UNDERWAY, WAIT
 from trihex.plans import Plan
@@ -211,6 +212,7 @@ def make_passing_order(plan: Plan) -> PassingOrder:
         would turn by moves that last differently: delayed, they would wait for each other for ever.
     """
     check_type("plan", plan, Plan)
+    check_as_fast(plan.scenario, "an order of passing")
     if (plan.actions == JUMP).any():
         raise PlanError("a plan in which robots jump has no order of passing")
     scenario, capacity = plan.scenario, plan.scenario.entry_limit
@@ -257,6 +259,7 @@ def _moves_of(plan: Plan) -> tuple[Ints, Ints, NDArray[np.int32], NDArray[np.int
         offset=layout.offset_of_direction,
         jump_at=np.empty(0, dtype=np.int64),
         jump_to=np.empty(0, dtype=np.int32),
+        slowness=scenario.slowness.astype(np.int32),
     )
     moves = given(
         PlanMoves,

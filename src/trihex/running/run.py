@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from trihex.areas import Scenario, World, count_by_zone
+from trihex.areas import Scenario, World, check_as_fast, count_by_zone
 from trihex.kernels.codes import LATE, UNDERWAY, WAIT
 from trihex.plans import Motion
 from trihex.record import counted, read_only
@@ -73,6 +73,7 @@ class Run(Motion):
     touched: NDArray[np.int64]
 
     def __post_init__(self) -> None:
+        check_as_fast(self.scenario, "a run")
         for name in ("robots", "joined", "ended", "state_of_robot", "actions", "known_since", "cut_off_since"):
             self._set(name, read_only(getattr(self, name)))
         self._set("touched", read_only(self.touched))

@@ -13,10 +13,19 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from trihex.areas import GENERATORS, Area, Scenario, Tessellation, make_doors, random_start_times, start_times_of
+from trihex.areas import (
+    GENERATORS,
+    Area,
+    Scenario,
+    Tessellation,
+    make_doors,
+    random_start_times,
+    slowness_of,
+    start_times_of,
+)
 from trihex.bounds import distance_bound, make_lower_bound
 from trihex.fields import NScheme, make_n_scheme
-from trihex.formats import Draft, read_draft, read_start_times, read_starts
+from trihex.formats import Draft, read_draft, read_slowness, read_start_times, read_starts
 from trihex.judging import Report, audit_plan, make_report
 from trihex.planners import make_plan, planner_from
 from trihex.plans import Plan
@@ -167,19 +176,25 @@ def _cells(area: Area, places: Any) -> Any:
 
 def _with_robots(case: Case, draft: Draft, empty: NScheme) -> NScheme:
     wanted, scenario, seed, told = case["robots"], empty.scenario, case["seed"], None
+    slowness = None
     if "cells" in wanted:
         robots = _cells(scenario.area, wanted["cells"])
     elif "file" in wanted:
         path = Path(case["folder"]) / wanted["file"]
-        robots, told = read_starts(path, scenario.area), read_start_times(path)
+        robots, told, slowness = read_starts(path, scenario.area), read_start_times(path), read_slowness(path)
     else:
         robots = place_robots(empty, wanted["count"], wanted.get("placement", "uniform"), seed)
     scenario = scenario.with_robots(robots, seed)
+    pace: dict[str, Any] = {}
+    if slowness is not None:
+        if slowness.dtype.kind == "f":
+            pace, slowness = {"speed": float(slowness.max(initial=0.0)) or 1.0}, slowness_of(slowness)
+        scenario = replace(scenario, slowness=slowness.astype(np.int64))
     if "start_times" in wanted:
-        times = random_start_times(scenario.area, scenario.robot_count, wanted["start_times"], seed)
+        times = random_start_times(scenario.area, scenario.robot_count, wanted["start_times"], seed, **pace)
         scenario = replace(scenario, start_times=times)
     elif told is not None:
-        scenario = replace(scenario, start_times=start_times_of(scenario.area, told))
+        scenario = replace(scenario, start_times=start_times_of(scenario.area, told, **pace))
     return replace(empty, scenario=scenario)
 
 

@@ -172,6 +172,8 @@ def hash_of_scenario(scenario: Scenario) -> str:
         rules += (scenario.clock, scenario.following)
     if scenario.has_start_times:
         rules += tuple(map(str, scenario.start_times.tolist()))
+    if scenario.has_slowness:
+        rules += ("slowness", *map(str, scenario.slowness.tolist()))
     names = (tessellation.name, tessellation.neighbourhood, tessellation.costs)
     digest = hashlib.sha256(repr((names, area.height, area.width, frame, rules)).encode())
     digest.update(np.packbits(area.barriers).tobytes())

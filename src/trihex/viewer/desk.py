@@ -30,6 +30,7 @@ from trihex.formats import (
     read_draft,
     read_plan,
     read_run,
+    read_slowness,
     read_start_times,
     read_starts,
 )
@@ -169,8 +170,8 @@ class Desk:
             return self._shown(plan, seconds, call)
         if form.holds == "starts":
             draft = call.draft(request)
-            robots, times = read_starts(path, draft.area), read_start_times(path)
-            return _drafted(replace(draft, robots=robots, start_times=times, seed=None))
+            robots, times, slowness = read_starts(path, draft.area), read_start_times(path), read_slowness(path)
+            return _drafted(replace(draft, robots=robots, start_times=times, slowness=slowness, seed=None).paced())
         options = {name: getattr(request, name) for name in _PLACE}
         try:
             draft = read_draft(path, request.tessellation, progress=call.progress("reading"), **options)
@@ -193,9 +194,8 @@ class Desk:
         return _drafted(Draft(area))
 
     def _scatter(self, request: ask.Scatter, call: Call) -> Bundle:
-        draft = replace(
-            call.draft(request), robots=None, start_times=None, random_count=request.count, seed=request.seed
-        )
+        draft = replace(call.draft(request), robots=None, start_times=None, slowness=None, random_count=request.count)
+        draft = replace(draft, seed=request.seed)
         return _drafted(_drawn(draft, call))
 
     def _fields(self, request: ask.Fields, call: Call) -> Bundle:
@@ -333,7 +333,8 @@ class Desk:
         begin = perf_counter()
         audit = audit_plan(plan, progress=call.progress("checking"))
         seconds["audit"] = perf_counter() - begin
-        bound = max(distance_bound(n_scheme), slot_bound(n_scheme), key=lambda bound: bound.value)
+        bounds = [distance_bound] if plan.scenario.has_slowness else [distance_bound, slot_bound]
+        bound = max((make(n_scheme) for make in bounds), key=lambda bound: bound.value)
         report = make_report(plan, n_scheme=n_scheme, audit=audit, lower_bound=bound, seconds=seconds)
         return show_plan(report, n_scheme, self.shelf.put_report(report))
 

@@ -61,6 +61,7 @@ class DocumentHeader(_Strict):
     # Cell and start time of robots that may not begin at once: pages hand it on, whatever becomes of other robots.
     start_times: list[Annotated[list[_Whole], Field(min_length=2, max_length=2)]] | None = None
     doors: list[DoorHeader] | None = None
+    slowness: list[Annotated[list[_Whole], Field(min_length=2, max_length=2)]] | None = None  # likewise
 
 
 def document_of(draft: Draft) -> Bundle:
@@ -108,6 +109,10 @@ def document_of(draft: Draft) -> Bundle:
         header["doors"] = told_doors(_clocked(draft), doors)
     if draft.has_start_times:
         header["start_times"] = _start_times(draft, robots)
+    if draft.slowness is not None and draft.has_slowness:
+        slowness = draft.whole_slowness()
+        slow = np.flatnonzero(slowness > 1)
+        header["slowness"] = np.stack([robots[slow], slowness[slow]], axis=1).astype(np.int64).tolist()
     arrays: dict[str, NDArray[Any]] = {
         "barriers": np.packbits(area.barriers),
         "destinations": _cells(draft.destinations),
@@ -183,14 +188,15 @@ def draft_of_document(header: Any, arrays: dict[str, NDArray[Any]]) -> Draft:
         clock=parsed.clock,
         following=parsed.following,
         destination_capacity=parsed.destination_capacity,
-        start_times=_times_of(arrays["robots"], parsed.start_times) if parsed.start_times else None,
+        start_times=_values_of(arrays["robots"], parsed.start_times, 0) if parsed.start_times else None,
+        slowness=_values_of(arrays["robots"], parsed.slowness, 1) if parsed.slowness else None,
     )
     return with_doors(draft, parsed.doors) if parsed.doors else draft
 
 
-def _times_of(robots: NDArray[np.int32], pairs: list[list[int]]) -> NDArray[np.int64]:
-    time_of_cell: dict[int, int] = dict(tuple(pair) for pair in pairs)  # type: ignore[misc]
-    return np.array([time_of_cell.get(cell, 0) for cell in robots.tolist()], dtype=np.int64)
+def _values_of(robots: NDArray[np.int32], pairs: list[list[int]], usual: int) -> NDArray[np.int64]:
+    value_of_cell: dict[int, int] = dict(tuple(pair) for pair in pairs)  # type: ignore[misc]
+    return np.array([value_of_cell.get(cell, usual) for cell in robots.tolist()], dtype=np.int64)
 
 
 def _clocked(draft: Draft) -> Area:

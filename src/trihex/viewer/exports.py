@@ -93,7 +93,8 @@ def export(
     elif what == "starts":
         scenario, lasts = draft.complete(), 1.0 if draft.area.frame is None else seconds_per_step(draft.area)
         times = scenario.start_times * lasts if scenario.has_start_times else None
-        write_starts(draft.area, scenario.robots, path, start_times=times)
+        slowness = scenario.slowness if scenario.has_slowness else None
+        write_starts(draft.area, scenario.robots, path, start_times=times, slowness=slowness)
     elif what == "picture":
         has_destination = draft.destinations is not None and draft.destinations.size > 0
         start = picture_of_area(draft.complete() if has_destination else draft.area)

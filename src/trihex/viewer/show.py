@@ -53,6 +53,7 @@ def show_plan(report: Report, n_scheme: NScheme, name: str = "") -> Bundle:
         **{f"{name}_by_step": curve for name, curve in {**curves, **counts}.items()},
         "actions": plan.actions,
         "first_action": plan.first_action.astype(np.int32),
+        **({"slowness": scenario.slowness.astype(np.int32)} if scenario.has_slowness else {}),
         "has_arrived": plan.arrived.astype(np.uint8),
         "jump_at": np.minimum(jump_at, 2**31 - 1).astype(np.int32),
         "jump_to": jump_to,

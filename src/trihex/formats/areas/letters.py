@@ -88,6 +88,7 @@ def lost_in_letters(scenario: Scenario) -> list[str]:
     ]
     lost += ["doors with a flow"] if scenario.doors else []
     lost += ["start times"] if scenario.has_start_times else []
+    lost += ["slowness"] if scenario.has_slowness else []
     return [*lost, *(["a frame in metres"] if scenario.area.frame else [])]
 
 

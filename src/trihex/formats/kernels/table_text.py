@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 from numba import types
 
-from trihex.kernels.actions import ACTIONS, site_after
+from trihex.kernels.actions import ACTIONS, site_after, times_of
 from trihex.kernels.codes import JUMP, WAIT
 from trihex.kernels.signatures import APART, HELPER, IN_BOOL, IN_I32, IN_I64, IN_U8, OUT_I64, OUT_U8, declared, kernel
 
@@ -94,8 +94,9 @@ def write_plan_rows(table, actions, spelling, state, text):
             i = actions.first[robot] + done - 1
             action = actions.action[i]
             word = _word_of(action, site, directions)
-            time += _price_of(action, table)
-            step += table.duration[action]
+            times = times_of(robot, action, actions)
+            time += _price_of(action, table) * times
+            step += table.duration[action] * times
             site = site_after(site, i, actions)
         place = site - table.origin
         for number in (robot, step, place % table.pitch, place // table.pitch):

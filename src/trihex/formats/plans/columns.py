@@ -62,6 +62,8 @@ def columns_of(motion: Motion) -> Columns:
     cost_of_action[: tessellation.direction_count] = tessellation.cost_of_direction
     cost_of_action[[WAIT, LATE]] = motion.scenario.waiting_cost
     word, cost = word_of_action[action], cost_of_action[action]
+    if motion.scenario.has_slowness:
+        cost *= np.where(action < JUMP, motion.scenario.slowness[robot], 1)
     orientation = tessellation.orientation_of_cell(*area.cell_to_xy(np.append(cell[:1], cell[:-1])))
     is_move = word < tessellation.direction_count
     word[is_move] += orientation[is_move] * tessellation.direction_count

@@ -82,10 +82,9 @@ def parse_plan_csv(
 ) -> Plan:
     """Return the plan that a CSV file holds for the area, the destinations and the rules of `scenario`.
 
-    The robots are those of the file; if they are those of `scenario` its start times are theirs. Rows may come in any
-    order. A row whose action does not lead from the robot's last cell to this one becomes `JUMP`, which no audit lets
-    pass.
-
+    The robots are those of the file; if they are those of `scenario` its start times and slowness are theirs. Rows may
+    come in any order. A row whose action does not lead from the robot's last cell to this one becomes `JUMP`, which no
+    audit lets pass.
 
     Parameters
     ----------
@@ -119,12 +118,15 @@ def plan_of_table(table: NDArray[np.int64], scenario: Scenario, path: object) ->
     robot, step, x, y, word, time = table
     start, wait = len(words) - 3, len(words) - 2
     actions, lasts = _actions(tessellation, x, y, word, wait)
-    is_start = _check_steps(robot, step, lasts, tessellation, line, path)
+    cells = y * area.width + x
+    times = _times_of_rows(scenario, robot, cells, word < start)
+    lasts = lasts * times
+    is_start = _check_steps(robot, step, lasts, scenario, line, path)
     _check_rows(
         is_start != (word == start), "action must be 'start' at step 0, and only there", words, word, line, path
     )
     _check_rows(is_start & (time != 0), "time must be 0 at step 0", time, time, line, path)
-    cost = _by_action(tessellation.cost_of_direction, 0)[actions]
+    cost = _by_action(tessellation.cost_of_direction, 0)[actions] * times
     wrong = (
         ~is_start
         & (actions != JUMP)
@@ -139,12 +141,11 @@ def plan_of_table(table: NDArray[np.int64], scenario: Scenario, path: object) ->
         )
     own = actions[~is_start]
     jumps = np.flatnonzero(own == JUMP)
-    cells = y * area.width + x
     firsts = np.flatnonzero(is_start)
     given = {field.name: getattr(scenario, field.name) for field in fields(scenario)}
     given |= {"robots": cells[is_start], "seed": None}
     if not np.array_equal(given["robots"], scenario.robots):
-        given["start_times"] = ()
+        given["start_times"] = given["slowness"] = ()
     return Plan(
         claimed(lambda kind: kind(**given)),
         own,
@@ -160,11 +161,21 @@ def _order(table: NDArray[np.int64]) -> NDArray[np.int64] | None:
     return None if rises.all() else np.lexsort((step, robot))
 
 
+def _times_of_rows(
+    scenario: Scenario, robot: NDArray[np.int64], cells: NDArray[np.int64], is_move: NDArray[np.bool_]
+) -> NDArray[np.int64]:
+    """Return the slowness of the robot of each row that is a move, else 1; 1 if robots are not those of `scenario`."""
+    starts = cells[np.append(True, robot[1:] != robot[:-1])[: robot.size]]
+    if not scenario.has_slowness or not np.array_equal(starts, scenario.robots):
+        return np.ones((), dtype=np.int64)
+    return np.where(is_move, scenario.slowness[np.clip(robot, 0, starts.size - 1)], 1)
+
+
 def _check_steps(
     robot: NDArray[np.int64],
     step: NDArray[np.int64],
     lasts: NDArray[np.int64],
-    tessellation: Tessellation,
+    scenario: Scenario,
     line: NDArray[np.int64],
     path: object,
 ) -> NDArray[np.bool_]:
@@ -187,10 +198,11 @@ def _check_steps(
     if step[row] == before_step[row]:
         raise FormatError(f"{where}: robot {robot[row]} has step {step[row]} twice")
     lasts = np.broadcast_to(lasts, step.shape)
-    if tessellation.clock == "costs":
+    tessellation = scenario.area.tessellation
+    if tessellation.clock == "costs" or scenario.has_slowness:
         raise FormatError(
             f"{where}: step must rise by {lasts[row]}, as long as the action lasts, not by "
-            f"{step[row] - before_step[row]}; the plan was made with another clock or other costs"
+            f"{step[row] - before_step[row]}; the plan was made with another clock, other costs or slowness"
         )
     is_in_ticks = step[row] - before_step[row] in replace(tessellation, clock="costs").duration_of_direction
     raise FormatError(

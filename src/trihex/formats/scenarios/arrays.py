@@ -21,7 +21,7 @@ _NO_DOORS = {
     "door_flows": np.empty((0, 2), dtype=np.int64),
     "destination_flow": np.empty(0, dtype=np.int64),
 }
-_NO_TIMES = {"start_times": np.empty(0, dtype=np.int64)}
+_NO_TIMES = {"start_times": np.empty(0, dtype=np.int64), "slowness": np.empty(0, dtype=np.int64)}
 LATER_ENTRIES: dict[str, Any] = {**_LATER_RULES, **_NO_ZONES, **_NO_DOORS, **_NO_TIMES}
 SCENARIO_ENTRIES: Entries = {
     "tessellation": ("U", 0),
@@ -35,6 +35,7 @@ SCENARIO_ENTRIES: Entries = {
     "destinations": ("i", 1),
     "robots": ("i", 1),
     "start_times": ("i", 1),  # of the robots; or nothing
+    "slowness": ("i", 1),  # likewise
     "waiting_cost": ("i", 0),
     "crossing": ("U", 0),
     "corners": ("U", 0),
@@ -62,6 +63,7 @@ def scenario_arrays(scenario: Scenario) -> dict[str, Any]:
         "destinations": scenario.destinations,
         "robots": scenario.robots,
         **({"start_times": scenario.start_times} if scenario.has_start_times else {}),
+        **({"slowness": scenario.slowness} if scenario.has_slowness else {}),
         "waiting_cost": scenario.waiting_cost,
         "crossing": scenario.crossing,
         "corners": scenario.corners,
@@ -89,6 +91,7 @@ def scenario_from(arrays: dict[str, Any], path: object, kind: type[Scenario] = S
         doors=_doors(arrays, path),
         **{name: text[name] for name in _LATER_RULES},
         start_times=arrays["start_times"],
+        slowness=arrays["slowness"],
     )
 
 

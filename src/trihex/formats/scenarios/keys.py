@@ -20,7 +20,7 @@ from trihex.areas import (
 )
 from trihex.errors import is_whole
 from trihex.formats.areas.options import UNKNOWNS
-from trihex.formats.schema import LARGEST, Cells, Flow, Number, Points, Table, Whole, choice, distribution
+from trihex.formats.schema import LARGEST, Cells, Count, Flow, Number, Points, Table, Whole, choice, distribution
 
 
 class FrameTable(Table):
@@ -100,6 +100,7 @@ class RobotsTable(Table):
     seed: Whole | None = None
     # Steps of each, or what draws them, in seconds in an area with a frame.
     start_times: Annotated[Any, AfterValidator(_start_times)] = None
+    slowness: list[Count] | None = None
 
 
 class PlannerTable(Table):

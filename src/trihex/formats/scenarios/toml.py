@@ -21,7 +21,7 @@ from trihex.formats.areas.options import AreaOptions
 from trihex.formats.draft import Draft
 from trihex.formats.scenarios.keys import OUTPUT_PATHS, ScenarioTable
 from trihex.formats.schema import check_document
-from trihex.formats.starts.starts import read_start_times, read_starts
+from trihex.formats.starts.starts import read_slowness, read_start_times, read_starts
 from trihex.formats.text import Text
 from trihex.formats.toml import complaint, parse_toml
 
@@ -85,13 +85,15 @@ def _draft_of(
     destinations = attempt("destinations", lambda: cells(table.destinations))
     if table.destinations_in_metres is not None:
         destinations = attempt("destinations_in_metres", lambda: metres(table.destinations_in_metres))
-    own_times = None
+    own_times = own_slowness = None
     starts = attempt("robots.cells", lambda: cells(robots.cells))
     if robots.metres is not None:
         starts = attempt("robots.metres", lambda: metres(robots.metres))
     if (file := robots.file) is not None:
         starts = attempt("robots.file", lambda: read_starts(path.parent / file, area))
-        own_times = attempt("robots.file", lambda: read_start_times(path.parent / file)) if starts is not None else None
+        if starts is not None:
+            own_times = attempt("robots.file", lambda: read_start_times(path.parent / file))
+            own_slowness = attempt("robots.file", lambda: read_slowness(path.parent / file))
     doors = attempt("doors", lambda: [(door.zone or door.cells, door.capacity) for door in table.doors])
     has_robots = starts is not None or robots.random is not None
     return Draft(
@@ -105,8 +107,9 @@ def _draft_of(
         planner_options=table.planner.options,
         outputs=_outputs(table, path),
         start_times=own_times if robots.start_times is None else robots.start_times,
+        slowness=own_slowness if robots.slowness is None else np.array(robots.slowness, dtype=np.int64),
         doors=(*draft.doors, *(doors or ())),
-    )
+    ).paced()
 
 
 def _outputs(table: ScenarioTable, path: Path) -> dict[str, Any]:
@@ -170,6 +173,7 @@ def write_scenario_toml(
         "[robots]",
         f"cells = {_cells(area, scenario.robots)}",
         f"start_times = {scenario.start_times.tolist()}" if scenario.has_start_times else "",
+        f"slowness = {scenario.slowness.tolist()}" if scenario.has_slowness else "",
         f"seed = {scenario.seed}" if scenario.seed is not None else "",
     ]
     if planner:

@@ -12,7 +12,7 @@ from trihex.errors import check_type
 from trihex.files import read_bytes
 from trihex.formats.recognise import format_of
 from trihex.formats.registry import FORMATS
-from trihex.formats.starts.csv import parse_start_times
+from trihex.formats.starts.csv import parse_slowness, parse_start_times
 from trihex.formats.text import check_text
 
 
@@ -23,7 +23,7 @@ def read_starts(path: str | os.PathLike[str], area: Area) -> NDArray[np.int64]:
     ----------
     path : path
         CSV with the header `x,y` of cells or `x_metres,y_metres` of points in the world, or a MovingAI ``.scen``, of
-        which only the starts are read. For a third column, `start`, see `read_start_times`.
+        which only the starts are read. For columns `start` and `slowness` see `read_start_times` and `read_slowness`.
     area : Area
 
     Raises
@@ -63,3 +63,25 @@ def read_start_times(path: str | os.PathLike[str]) -> NDArray[np.float64] | None
     """
     content = read_bytes(path)
     return parse_start_times(check_text(content, path), path) if format_of(content, path) == "starts" else None
+
+
+def read_slowness(path: str | os.PathLike[str]) -> NDArray[np.int64] | NDArray[np.float64] | None:
+    """Return the slowness of the robots of a file, or their speeds; None if it tells neither.
+
+    Slowness is whole, as `Scenario` takes it; speeds are float64, in metres a second in an area with a frame, and
+    `slowness_of` makes slowness of them.
+
+    Parameters
+    ----------
+    path : path
+        What `read_starts` takes; CSV tells it in its last column, `slowness` or `speed`.
+
+    Raises
+    ------
+    FormatError
+        If the column holds something else than whole numbers from 1 on, or speeds above 0.
+    OSError
+        If the file cannot be read.
+    """
+    content = read_bytes(path)
+    return parse_slowness(check_text(content, path), path) if format_of(content, path) == "starts" else None

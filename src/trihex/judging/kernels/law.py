@@ -29,7 +29,8 @@ class Law(NamedTuple):
     corner_rule: types.int64  # `ALLOW`, `NO_SQUEEZE` or `NO_CUT`
     forbids_crossing: types.boolean  # whether but one robot may pass a vertex in a step
     capacity: types.int64  # how many robots may enter a destination in a step, 0 for any number
-    duration: IN_I32  # how many ticks a move in each direction lasts
+    duration: IN_I32  # how many ticks a move of the fastest in each direction lasts
+    slowness: IN_I32  # of each robot: how many times as long its moves last
     forbids_following: types.boolean  # whether a robot owns both cells for the whole move
     doors: GUARDED_CELLS  # the cells that let robots in by a schedule
 

@@ -37,9 +37,9 @@ _U = np.uint64
 
 
 @HELPER
-def _duration(action, law):
-    """Return how many ticks a move lasts; a jump, of which no rule tells, takes one."""
-    return np.int64(1) if action == JUMP else np.int64(law.duration[_U(action)])
+def _duration(robot, action, law):
+    """Return how many ticks a move of a robot lasts; a jump, of which no rule tells, takes one."""
+    return np.int64(1) if action == JUMP else np.int64(law.duration[_U(action)]) * law.slowness[_U(robot)]
 
 
 @HELPER
@@ -55,7 +55,7 @@ def _rest(robot, half_tick, i, law, deeds, movers):
         return np.int64(NEVER)
     leaves = half_tick + 2 * waits
     movers.due[_U(robot)], movers.phase[_U(robot)] = leaves, LEAVES
-    return leaves + _duration(deeds.action[_U(i + waits)], law) * (2 if law.forbids_following else 1)
+    return leaves + _duration(robot, deeds.action[_U(i + waits)], law) * (2 if law.forbids_following else 1)
 
 
 @HELPER
@@ -88,7 +88,7 @@ def _leave(robot, half_tick, law, deeds, movers, owners, findings):
     """Let a robot begin a move, and judge the way that it takes."""
     i = deeds.first[_U(robot)] + movers.coming[_U(robot)]
     deed = deed_at(i, robot, half_tick // 2 + 1, np.int64(movers.target[_U(robot)]), owners.place, law, deeds)
-    duration = _duration(deed.action, law)
+    duration = _duration(robot, deed.action, law)
     movers.here[_U(robot)], movers.target[_U(robot)] = deed.here, deed.target
     movers.ends[_U(robot)] = half_tick + 2 * duration
     if deed.action == JUMP:

@@ -18,10 +18,10 @@ from trihex.planners.kernels.ways import WAYS, neighbour, vertex_of
 AWAITED = 1 << 30
 # A tick at which nothing ever happens.
 NEVER = np.int64(1 << 30)
-# Ticks of a window: a vertex has a bit for each of them and, above, for as long as moves last that begin in it.
-WINDOW = 30
-_BITS = np.int64(40)
-# Ticks ahead for which it is kept how many enter a destination: more than any move lasts.
+# Bits that a vertex has for ticks: one for each of a window and, above, for as long as moves last that begin in it.
+BITS = 40
+_BITS = np.int64(BITS)
+# Ticks ahead for which it is kept how many enter a destination: more than a block and any move last.
 AHEAD = np.int64(64)
 _U = np.uint64
 
@@ -29,7 +29,9 @@ _U = np.uint64
 class Clock(NamedTuple):
     """How long moves last, and who owns a cell meanwhile."""
 
-    duration: IN_I32  # ticks of a move in each direction
+    duration: IN_I32  # ticks of a move of the fastest in each direction
+    slowness: IN_I32  # how many times as long a move of each robot lasts
+    window: types.int64  # ticks of a window
     follows: types.int64  # 1 if a robot owns but the half of its move; 0 if nobody may follow before it is over
     shortest: types.int64  # ticks of the shortest move
     headway: types.int64  # how many of the shortest moves there are between two robots that go through one cell
@@ -67,24 +69,30 @@ def owner_of(site, claims):
 
 
 @HELPER
+def duration_of(robot, k, clock):
+    """Return how many ticks a move of a robot in direction `k` lasts."""
+    return np.int64(clock.duration[_U(k)]) * clock.slowness[_U(robot)]
+
+
+@HELPER
 def _tick_after(half_tick, tick):
     """Return the first tick at or after a half tick, but not before `tick`."""
     return max(tick, (half_tick + 1) >> 1)
 
 
 @HELPER
-def _ticks_passed(vertex, window, claims):
+def _ticks_passed(vertex, window, stage):
     """Return, as bits from the first tick of a window, when a vertex is owned."""
-    word = claims.passed[_U(vertex)]
-    age, ticks = window - (word >> _BITS), word & ((1 << _BITS) - 1)
-    return ticks if age == 0 else (ticks >> WINDOW) * (age == 1)
+    word = stage.claims.passed[_U(vertex)]
+    gone, ticks = (window - (word >> _BITS)) * stage.clock.window, word & ((1 << _BITS) - 1)
+    return ticks >> gone if gone < _BITS else np.int64(0)
 
 
 @HELPER
-def tick_of_leave(to, k, tick, stage):
-    """Return from which tick on direction `k` may lead into a cell that somebody leaves."""
+def tick_of_leave(robot, to, k, tick, stage):
+    """Return from which tick on a robot may take direction `k` into a cell that somebody leaves."""
     owned = np.int64(stage.claims.left_until[_U(to)])
-    return _tick_after(owned - stage.clock.follows * stage.clock.duration[_U(k)], tick)
+    return _tick_after(owned - stage.clock.follows * duration_of(robot, k, stage.clock), tick)
 
 
 @HELPER
@@ -119,25 +127,25 @@ def _tick_of_door(to, slot, begin, duration, stage):
 
 
 @HELPER
-def tick_of_opening(site, k, to, slot, tick, stage):
+def tick_of_opening(robot, site, k, to, slot, tick, stage):
     """Return the tick at which a robot at `site` can begin to move in direction `k`, `NEVER` if nobody knows.
 
     `slot` is that of the cell `to`, negative for destinations. An opposite move is never under way: whoever makes it
     would have become the owner of `site`.
     """
     clock, claims = stage.clock, stage.claims
-    duration = np.int64(clock.duration[_U(k)])
+    duration = duration_of(robot, k, clock)
     ready = tick
     if slot > 0:
         if owner_of(to, claims):
             return NEVER
-        ready = tick_of_leave(to, k, tick, stage)
+        ready = tick_of_leave(robot, to, k, tick, stage)
     elif stage.ways.entry_limit:
         entered_until = np.int64(claims.entered_until[_U(_place_at(-1 - slot, stage))])
         ready = _tick_after(entered_until - clock.follows * duration, tick)
     if k >= stage.ways.first_vertex_move:
-        window = tick // WINDOW
-        ticks = _ticks_passed(vertex_of(site, k, stage.ways), window, claims) >> (tick - window * WINDOW)
+        window = tick // clock.window
+        ticks = _ticks_passed(vertex_of(site, k, stage.ways), window, stage) >> (tick - window * clock.window)
         if ticks & ((1 << duration) - 1):
             free = tick
             while ticks:
@@ -156,7 +164,7 @@ def claim(robot, site, k, slot, tick, stage):
     Return whether somebody waits until `site` is left.
     """
     clock, claims = stage.clock, stage.claims
-    duration = np.int64(clock.duration[_U(k)])
+    duration = duration_of(robot, k, clock)
     is_awaited = claims.owner[_U(site)] & AWAITED != 0
     claims.owner[_U(site)] = 0
     claims.left_until[_U(site)] = 2 * tick + duration * (2 - clock.follows)
@@ -170,7 +178,7 @@ def claim(robot, site, k, slot, tick, stage):
         claims.let_in[at] = claims.let_in[at] * (claims.let_in_at[at] == end) + 1
         claims.let_in_at[at] = end
     if k >= stage.ways.first_vertex_move:
-        vertex, window = vertex_of(site, k, stage.ways), tick // WINDOW
-        ticks = _ticks_passed(vertex, window, claims) | ((1 << duration) - 1) << (tick - window * WINDOW)
+        vertex, window = vertex_of(site, k, stage.ways), tick // clock.window
+        ticks = _ticks_passed(vertex, window, stage) | ((1 << duration) - 1) << (tick - window * clock.window)
         claims.passed[_U(vertex)] = window << _BITS | ticks
     return is_awaited

@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 from numba import types
 
+from trihex.kernels.codes import WAIT
 from trihex.kernels.signatures import IN_I32, IN_I64, IN_U8, OUT_I32, OUT_I64, OUT_U8, declared, kernel
 
 
@@ -21,15 +22,16 @@ class TickRows(NamedTuple):
 TICK_ROWS = declared(TickRows)
 
 
-@kernel(types.int64(TICK_ROWS, IN_I64, OUT_I64, OUT_U8))
-def pack(rows, cost_of_action, time, packed):
+@kernel(types.int64(TICK_ROWS, IN_I64, IN_I32, OUT_I64, OUT_U8))
+def pack(rows, cost_of_action, slowness, time, packed):
     """Write all actions one after the other, add what they cost to the time of each robot, and return how many."""
     count = 0
     for row in range(len(rows.robot)):
         for i in range(row * rows.steps, row * rows.steps + rows.used[row]):
             packed[count] = rows.action[i]
             count += 1
-            time[rows.robot[row]] += cost_of_action[rows.action[i]]
+            times = 1 if rows.action[i] == WAIT else slowness[rows.robot[row]]
+            time[rows.robot[row]] += cost_of_action[rows.action[i]] * times
     return count
 
 

@@ -14,7 +14,16 @@ from numba import types
 from trihex.kernels.codes import WAIT
 from trihex.kernels.signatures import APART, HELPER, IN_I64, OUT_I32, OUT_I64, declared, kernel
 from trihex.planners.kernels.choice import ALWAYS, NOTHING, RULE, STAY, Turn, is_of_region, slot_of
-from trihex.planners.kernels.claims import AWAITED, NEVER, STAGE, claim, owner_of, tick_of_leave, tick_of_opening
+from trihex.planners.kernels.claims import (
+    AWAITED,
+    NEVER,
+    STAGE,
+    claim,
+    duration_of,
+    owner_of,
+    tick_of_leave,
+    tick_of_opening,
+)
 from trihex.planners.kernels.robots import ROBOTS
 from trihex.planners.kernels.slots import line_up, measure_lines
 from trihex.planners.kernels.tick_rows import TICK_ROWS
@@ -80,7 +89,7 @@ def _line_before(slot, own_slot, rule, stage):
 
 
 @HELPER
-def _aim_best(site, descends, turn, rule, stage, agenda):
+def _aim_best(robot, site, descends, turn, rule, stage, agenda):
     """Weigh the best directions; return the aim, and who stands in the way and has still to be asked at this tick."""
     sites, tick = stage.sites, turn.now.step
     own_slot = np.int64(sites.slot[_U(site)])
@@ -97,7 +106,7 @@ def _aim_best(site, descends, turn, rule, stage, agenda):
         if rule.counts != NOTHING and slot > 0:
             fcost += _line_before(slot, own_slot, rule, stage)
         best = min(best, fcost)
-        opens = tick_of_opening(site, k, to, slot, tick, stage)
+        opens = tick_of_opening(robot, site, k, to, slot, tick, stage)
         if opens == NEVER:
             blocking = owner_of(to, stage.claims)
             if agenda.due[_U(blocking)] == tick:
@@ -113,7 +122,7 @@ def _aim_best(site, descends, turn, rule, stage, agenda):
 
 
 @HELPER
-def _aim_elsewhere(site, aim, turn, rule, stage):
+def _aim_elsewhere(robot, site, aim, turn, rule, stage):
     """Weigh all other directions; return the aim, which may be another one."""
     sites, tick = stage.sites, turn.now.step
     own_slot = np.int64(sites.slot[_U(site)])
@@ -131,7 +140,7 @@ def _aim_elsewhere(site, aim, turn, rule, stage):
             continue
         fcost += _line_before(slot, own_slot, rule, stage)
         best = min(best, fcost)
-        if fcost < least and tick_of_opening(site, k, to, slot, tick, stage) == tick:
+        if fcost < least and tick_of_opening(robot, site, k, to, slot, tick, stage) == tick:
             direction, aimed, goal, least = k, slot, to, fcost
     return Aim(direction, aimed, goal, least, best, ready)
 
@@ -180,7 +189,7 @@ def _call(hole, turn, stage, ledger):
             continue
         k = back_of(hole, j, stage.ways)
         if stage.sites.best[_U(beside)] >> k & 1:
-            tick = tick_of_leave(hole, k, turn.now.step, stage)
+            tick = tick_of_leave(robot, hole, k, turn.now.step, stage)
             if ledger.agenda.done[_U(robot)] <= tick and tick < ledger.agenda.due[_U(robot)]:
                 _put(robot, tick, ledger)
 
@@ -190,7 +199,7 @@ def _go(robot, site, aim, turn, stage, ledger):
     """Let a robot take its aim; return what it loses: the cost beyond what it comes nearer."""
     agenda, tick = ledger.agenda, turn.now.step
     _note(robot, aim.direction, 1, ledger)
-    end = tick + stage.clock.duration[_U(aim.direction)]
+    end = tick + duration_of(robot, aim.direction, stage.clock)
     agenda.done[_U(robot)] = end
     agenda.came_from[_U(robot)] = site
     stage.slots.count[_U(stage.sites.slot[_U(site)])] -= 1
@@ -205,7 +214,7 @@ def _go(robot, site, aim, turn, stage, ledger):
     if is_awaited:
         _call(site, turn, stage, ledger)
     nearer = np.int64(stage.sites.distance[_U(site)]) - stage.sites.distance[_U(aim.to)]
-    return stage.ways.cost[_U(aim.direction)] - nearer
+    return (stage.ways.cost[_U(aim.direction)] - nearer) * stage.clock.slowness[_U(robot)]
 
 
 @HELPER
@@ -214,8 +223,9 @@ def _aim_of(robot, site, aim, turn, rule, stage, agenda):
     is_due = aim.direction == WAIT or (turn.now.step + robot) % rule.period == 0
     if rule.counts == NOTHING or robot == turn.captain or aim.fcost <= stage.sites.distance[_U(site)] or not is_due:
         return aim
-    aim = _aim_elsewhere(site, aim, turn, rule, stage)
+    aim = _aim_elsewhere(robot, site, aim, turn, rule, stage)
     patience = stage.ways.waiting_cost * min(aim.ready - turn.now.step, stage.clock.headway * stage.clock.shortest)
+    patience //= stage.clock.slowness[_U(robot)]  # a longer way costs the slow more
     if not _stays(robot, site, aim, patience, rule, stage.sites, agenda):
         return aim
     ready = min(aim.ready, turn.now.step + stage.clock.shortest)
@@ -231,7 +241,7 @@ def _ask(own, turn, rule, stage, ledger):
     agenda.due[_U(robot)] = NEVER
     while True:
         site = np.int64(ledger.robots.site[_U(robot)])
-        aim, other = _aim_best(site, robot == turn.captain, turn, rule, stage, agenda)
+        aim, other = _aim_best(robot, site, robot == turn.captain, turn, rule, stage, agenda)
         if other and own != turn.captain:
             agenda.waiting[_U(depth)] = robot
             depth += 1

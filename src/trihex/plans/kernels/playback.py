@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 from numba import types
 
-from trihex.kernels.actions import ACTIONS, site_after
+from trihex.kernels.actions import ACTIONS, site_after, times_of
 from trihex.kernels.codes import JUMP, NOT_REACHED, WAIT
 from trihex.kernels.signatures import IN_BOOL, IN_I32, OUT_I64, declared, kernel
 
@@ -24,15 +24,17 @@ def count_steps(start, actions, cost, waiting_cost, duration, arrived, distance,
     """Add up for each step who moves, waits and arrives, the time spent, and how much of it was no way forward.
 
     The counts are of all robots, the times of those that arrive only. `cost` is that of each direction, `distance`
-    the N-scheme by site; an action loses what it costs less what it brings its robot nearer; a jump costs nothing. An
-    action that lasts ``duration[its byte]`` steps is paid step by step; what it loses is lost in the first.
+    the N-scheme by site, both of the fastest; an action loses what it costs less what it brings its robot nearer; a
+    jump costs nothing. An action that lasts several steps, of the fastest ``duration[its byte]``, is paid step by step;
+    what it loses is lost in the first.
     """
     for robot in range(len(start)):
         site, arrives = start[robot], arrived[robot]
         step = 1  # in which the next action begins
         for i in range(actions.first[robot], actions.first[robot + 1]):
             action = actions.action[i]
-            lasts = duration[action]
+            times = times_of(robot, action, actions)
+            lasts = duration[action] * times
             to = site
             price = waiting_cost
             if action == WAIT:
@@ -42,16 +44,16 @@ def count_steps(start, actions, cost, waiting_cost, duration, arrived, distance,
                 for later in range(step + 1, step + lasts):
                     sums.moving[later] += 1
                 to = site_after(site, i, actions)
-                price = 0 if action == JUMP else cost[action]
+                price = 0 if action == JUMP else cost[action] * times
             if arrives:
                 if lasts == 1:
                     sums.spent[step] += price
-                else:  # as much as it lasts
+                else:  # bit by bit
                     for later in range(step, step + lasts):
-                        sums.spent[later] += 1
+                        sums.spent[later] += price // lasts
                 sums.lost[step] += price
                 if distance[site] != NOT_REACHED and distance[to] != NOT_REACHED:
-                    sums.lost[step] += distance[to] - distance[site]
+                    sums.lost[step] += (distance[to] - distance[site]) * types.int64(actions.slowness[robot])
             site = to
             step += lasts
         if arrives:

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 from numba import types
 
-from trihex.kernels.actions import ACTIONS, site_after
+from trihex.kernels.actions import ACTIONS, site_after, times_of
 from trihex.kernels.codes import JUMP, WAIT
 from trihex.kernels.signatures import IN_I32, IN_U16, OUT_F64, OUT_I32, OUT_I64, TABLE_F64, declared, kernel
 
@@ -29,7 +29,7 @@ def replay(start, actions, cost, replayed):
             if action == WAIT:
                 waits += 1
             elif action != JUMP:
-                distance += cost[action]
+                distance += cost[action] * times_of(robot, action, actions)
             site = site_after(site, i, actions)
         replayed.site[robot] = site
         replayed.distance[robot] = distance

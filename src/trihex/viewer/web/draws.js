@@ -57,7 +57,7 @@ export class Draws {
     app.take(answer, { isEdit: false });
     app.set({ ...app.doc, destinations: Int32Array.of(middleOf(app.doc)) }, [null, null]);
     const robots = await this.#robots(FIRST_ROBOTS, FIRST_SEED);
-    const drawn = { seed: FIRST_SEED, start_times: null };
+    const drawn = { seed: FIRST_SEED, start_times: null, slowness: null };
     if (robots) app.set({ ...app.doc, robots, header: { ...app.doc.header, ...drawn } }, [null, null]);
   }
 
@@ -67,7 +67,8 @@ export class Draws {
     app.leaveLive();
     const { doc } = app, count = Number(chosenIn(this.count)), seed = Number(chosenIn(this.seed));
     const robots = await app.make(this.#robots(count, seed));
-    if (robots && app.doc === doc) app.change({ robots, header: { ...doc.header, seed, start_times: null } });
+    const drawn = { seed, start_times: null, slowness: null };
+    if (robots && app.doc === doc) app.change({ robots, header: { ...doc.header, ...drawn } });
   }
 
   async #made(wish) {

@@ -53,12 +53,13 @@ export class Playback {
     this.curves = {};
     for (const name of CURVES) this.curves[name] = arrays[`${name}_by_step`];
     this.distance = arrays.distance;
+    this.slowness = arrays.slowness ?? none.map(() => 1); // how many times as long the moves of each last
     const { origin, pitch, offsets, durations } = header.layout;
     this.duration = new Int32Array(256).fill(1); // of actions, by their bytes
     this.duration.set(durations);
     this.follows = doc.header.following !== "forbid";
     this.pace = Math.min(...durations);
-    this.hasSteps = durations.every((duration) => duration === 1);
+    this.hasSteps = durations.every((duration) => duration === 1) && !arrays.slowness;
     this.offsets = offsets.map((row) => Int32Array.from(row));
     const siteOf = (cell) => origin + Math.floor(cell / doc.width) * pitch + (cell % doc.width);
     const start = Int32Array.from(doc.robots, siteOf);
@@ -112,6 +113,9 @@ export class Playback {
     if (!this.hasSteps) this.#cut();
   }
 
+  // How long lasts what a robot does.
+  #lasts(r, action) { return this.duration[action] * (action < LATE ? this.slowness[r] : 1); }
+
   // Whether a robot does something in the step after `step`: it is there, and has something more to do.
   #acts(r) { return this.step >= this.joined[r] && this.index[r] < this.first[r + 1]; }
 
@@ -127,9 +131,9 @@ export class Playback {
   // The cell that a robot owns, -1 for none: where others follow, the one that it leaves for half of its move, then the
   // one that it enters; destinations are nobody's.
   held(r, fraction) {
-    const { site, next, step, begun, duration, actions, index, follows } = this;
+    const { site, next, step, begun, actions, index, follows } = this;
     if (next[r] === site[r] || !follows) return this.#cellOf(site[r]);
-    if ((step + fraction - begun[r]) * 2 < duration[actions[index[r]]]) return this.#cellOf(site[r]);
+    if ((step + fraction - begun[r]) * 2 < this.#lasts(r, actions[index[r]])) return this.#cellOf(site[r]);
     return this.state[r] === FINAL ? -1 : this.#cellOf(next[r]);
   }
 
@@ -146,11 +150,11 @@ export class Playback {
 
   // Cut from the whole ways what robots do of them from this step to the next.
   #cut() {
-    const { actions, index, first, begun, duration, step } = this;
+    const { actions, index, first, begun, step } = this;
     const at = (from, way, corner, share) => from + share * way + (1 - Math.abs(2 * share - 1)) * corner;
     for (const [from, to, bend] of [[this.x0, this.x1, this.bx], [this.y0, this.y1, this.by]]) {
       for (let r = 0; r < this.count; r++) {
-        const lasts = index[r] < first[r + 1] ? duration[actions[index[r]]] : 1, done = step - begun[r];
+        const lasts = index[r] < first[r + 1] ? this.#lasts(r, actions[index[r]]) : 1, done = step - begun[r];
         if (lasts === 1) continue;
         const start = from[r], way = to[r] - start, corner = bend[r];
         from[r] = at(start, way, corner, done / lasts);
@@ -173,10 +177,10 @@ export class Playback {
 
   // What ends in this step.
   #finish() {
-    const { first, actions, index, begun, site, next, duration, step } = this;
+    const { first, actions, index, begun, site, next, step } = this;
     for (let r = 0; r < this.count; r++) {
       const i = index[r];
-      if (i === first[r + 1] || begun[r] + duration[actions[i]] > step) continue;
+      if (i === first[r + 1] || begun[r] + this.#lasts(r, actions[i]) > step) continue;
       site[r] = next[r];
       index[r] = i + 1;
       begun[r] = step;
@@ -234,11 +238,11 @@ export class Playback {
       if (action === WAIT || action === LATE) w += wait;
       else if (action === JUMP) site = this.jumpTo[this.#jumpOf(i)];
       else {
-        d += costs[action];
+        d += costs[action] * this.slowness[r];
         site += this.offsets[parity][action];
       }
       const name = { [WAIT]: "wait", [JUMP]: "jump", [LATE]: "late" }[action] ?? names[parity][action];
-      step += this.duration[action];
+      step += this.#lasts(r, action);
       rows.push({ step, cell: this.#cellOf(site), d, w, action: name });
     }
     return { rows, hasArrived: !!this.hasArrived[r] };
