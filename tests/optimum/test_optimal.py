@@ -96,10 +96,9 @@ def test_prices_that_rise_cost_as_little(monkeypatch, share):
     assert len(found) >= len(seeds) / 4  # where waiting is free no flow is needed
 
 
-@pytest.mark.parametrize("rebate", REBATES)
-def test_prices_know_shut_doors_and_robots_that_may_not_go_yet(monkeypatch, rebate):
-    plan_at_prices(monkeypatch, rebate)
-    for seed in (900_010, 900_046, 900_047, *range(4_000, 4_000 + swept(30, 3))):
+def test_prices_know_shut_doors_and_robots_that_may_not_go_yet(monkeypatch):
+    plan_at_prices(monkeypatch, 1)
+    for seed in (900_010, 900_046, 900_047, *range(4_000, 4_000 + swept(60, 9))):
         scenario = with_random_doors(with_start_times(crowded_scenario(seed), seed))
         plan = make_plan(scenario, "optimal")
         assert th.audit_plan(plan).is_clean, seed

@@ -42,7 +42,7 @@ def make_lower_bound(n_scheme: NScheme, *, progress: Callable[[int, int], None] 
 
     Examples
     --------
-    >>> from trihex import Area, make_n_scheme
+    >>> from trihex import Area, Scenario, make_n_scheme
     >>> scenario = Scenario(Area("hexagonal", [[0, 0, 0, 0]]), destinations=[(0, 0)], robots=[(2, 0), (3, 0)])
     >>> make_lower_bound(make_n_scheme(scenario)).value
     50

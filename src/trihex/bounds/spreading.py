@@ -37,7 +37,7 @@ def queue_bound(n_scheme: NScheme) -> LowerBound:
     >>> from trihex import Area, Scenario, make_n_scheme
     >>> area = Area("square", [[0] * 12])
     >>> queue_bound(make_n_scheme(Scenario(area, [0, 11], [1, 2, 3, 4]))).value
-    60
+    100
     """
     check_type("n_scheme", n_scheme, NScheme)
     check_as_fast(n_scheme.scenario, "the queue bound")
