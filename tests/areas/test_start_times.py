@@ -1,5 +1,6 @@
 """Start times drawn from distributions, and seconds that become steps."""
 
+from dataclasses import replace
 from math import ceil
 
 import numpy as np
@@ -69,3 +70,11 @@ def test_what_is_no_distribution_is_refused(text, rule):
 def test_seconds_must_be_from_0_on():
     with pytest.raises(th.ScenarioError, match=r"start times must be from 0 to 1e\+06, not -1"):
         start_times_of(STEPS, [2, -1])
+
+
+def test_a_scenario_may_be_replaced_with_other_robots_where_none_starts_late():
+    """What a scenario keeps for each robot is then as usual, and says nothing of robots that come."""
+    scenario = th.Scenario(th.Area("square", [[0] * 5]), [(0, 0)], [(1, 0), (2, 0)])
+    assert replace(scenario, robots=[(3, 0)]) == scenario.with_robots([(3, 0)])
+    with pytest.raises(th.ScenarioError, match="start_times must be one for each of 1 robot, not 2"):
+        replace(replace(scenario, start_times=[0, 4]), robots=[(3, 0)])

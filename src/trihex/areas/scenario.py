@@ -15,11 +15,12 @@ from trihex.areas.area import Area
 from trihex.areas.clearance import check_cell_size, check_rules, usual_following
 from trihex.areas.door import Door, make_doors
 from trihex.areas.flow import flow_from, flow_in_words
+from trihex.areas.for_each_robot import for_each_robot
 from trihex.areas.nearest import nearest_free_cell
 from trihex.areas.places import cells_from
 from trihex.areas.schedule import Schedule, schedule_of
 from trihex.areas.slowness import check_following, is_slower, make_slowness
-from trihex.areas.start_times import make_start_times
+from trihex.areas.start_times import MOST_START_TIME
 from trihex.areas.tessellation import CLOCKS
 from trihex.areas.zone import Zone
 from trihex.errors import ScenarioError, check_choice, check_type, check_whole
@@ -138,7 +139,8 @@ class Scenario(Record):
             raise ScenarioError("destinations must name at least one cell")
         self._set("destinations", read_only(_without_repeats(self.destinations)))
         self._check_distinct()
-        self._set("start_times", read_only(make_start_times(self.start_times, self.robot_count)))
+        start_times = for_each_robot("start_times", self.start_times, self.robot_count, 0, MOST_START_TIME)
+        self._set("start_times", read_only(start_times))
         longest = int(self.duration_of_direction.max())
         self._set("slowness", read_only(make_slowness(self.slowness, self.robot_count, longest)))
         if area.frame is not None and self.has_slowness:

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from trihex.errors import PlanError, ScenarioError, is_whole
-from trihex.record import counted, short
+from trihex.areas.for_each_robot import for_each_robot
+from trihex.errors import PlanError, ScenarioError
+from trihex.record import short
 
 if TYPE_CHECKING:
     from trihex.areas.scenario import Scenario
@@ -57,27 +58,9 @@ def slowness_of(speeds: ArrayLike, *, fastest: float | None = None) -> NDArray[n
 
 
 def make_slowness(given: Any, count: int, longest: int) -> NDArray[np.int64]:
-    """Return the slowness of each of `count` robots, given for each, as one for all, or not at all.
-
-    `longest` is how many ticks the longest move of the fastest lasts.
-    """
-    if is_whole(given):
-        given = [given] * count
-    slowness = np.asarray(given)
-    if slowness.size == 0:
-        return np.ones(count, dtype=np.int64)
-    if slowness.dtype.kind not in "iu" or slowness.ndim != 1:
-        raise ScenarioError(f"slowness must be whole numbers, one for each robot, not {short(given)}")
-    if slowness.size != count and (slowness == 1).all():  # what is usual, of a scenario that has other robots now
-        return np.ones(count, dtype=np.int64)
-    if slowness.size != count:
-        raise ScenarioError(f"slowness must be one for each of {counted(count, 'robot')}, not {slowness.size}")
-    most = LONGEST_MOVE // longest
-    wrong = np.flatnonzero((slowness < 1) | (slowness > most))
-    if wrong.size:
-        rule = f"a whole number from 1 to {most}: no move may last longer than {LONGEST_MOVE} ticks"
-        raise ScenarioError(f"slowness[{wrong[0]}] must be {rule}, not {slowness[wrong[0]]}")
-    return slowness.astype(np.int64)
+    """Return the slowness of each of `count` robots; `longest` is how many ticks moves of the fastest last at most."""
+    why = f": no move may last longer than {LONGEST_MOVE} ticks"
+    return for_each_robot("slowness", given, count, 1, LONGEST_MOVE // longest, why)
 
 
 def check_as_fast(scenario: Scenario, what: str) -> None:

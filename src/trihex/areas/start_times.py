@@ -10,8 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from trihex.areas.area import Area
 from trihex.areas.seconds import seconds_per_step
-from trihex.errors import ScenarioError, check_type, check_whole, is_whole
-from trihex.record import counted, short
+from trihex.errors import ScenarioError, check_type, check_whole
+from trihex.record import short
 
 #: Distributions by name, with what their numbers are.
 DISTRIBUTIONS = {
@@ -22,7 +22,7 @@ DISTRIBUTIONS = {
 }
 _EXAMPLE = "lognormal:30,15"
 _MOST = 1e6
-_MOST_STEPS = 2**24  # planners count half ticks in int32
+MOST_START_TIME = 2**24  # steps; planners count half ticks in int32
 # Kept apart from what else a seed draws: robots (the seed alone) and delays (seed and step, up to a million).
 _STREAM = 2**20
 
@@ -79,24 +79,6 @@ def start_times_of(area: Area, times: ArrayLike, *, speed: float = 1.0, turn_tim
         raise ScenarioError(f"start times must be from 0 to {_MOST:g}, not {values[wrong[0]]:g}")
     # Seconds that are some steps, but for the last digit, are no more than these.
     return np.ceil(values / lasts * (1 - 1e-12)).astype(np.int64)
-
-
-def make_start_times(given: Any, count: int) -> NDArray[np.int64]:
-    """Return the start time of each of `count` robots, given for each, as one for all, or not at all."""
-    if is_whole(given):
-        given = [given] * count
-    times = np.asarray(given)
-    if times.size == 0:
-        return np.zeros(count, dtype=np.int64)
-    if times.dtype.kind not in "iu" or times.ndim != 1:
-        raise ScenarioError(f"start_times must be whole numbers, one for each robot, not {short(given)}")
-    if times.size != count:
-        raise ScenarioError(f"start_times must be one for each of {counted(count, 'robot')}, not {times.size}")
-    wrong = np.flatnonzero((times < 0) | (times > _MOST_STEPS))
-    if wrong.size:
-        rule = f"a whole number from 0 to {_MOST_STEPS}"
-        raise ScenarioError(f"start_times[{wrong[0]}] must be {rule}, not {times[wrong[0]]}")
-    return times.astype(np.int64)
 
 
 def check_distribution(text: object) -> None:
