@@ -43,6 +43,7 @@ class Shown:
 
     def view(self, pane=0):
         """Return pixels per edge step and the place of the north-west corner, in pixels of the window."""
+        self.draw()  # words that have just been said may need another line, which moves the picture
         scale, left, top, ratio, x, y = self.ask(
             f"((pane) => {{ const box = pane.canvas.getBoundingClientRect(), {{ scale, left, top }} = pane.view; "
             f"return [scale, left, top, box.width / pane.canvas.width, box.left, box.top] }})(app.panes[{pane}])"
@@ -67,9 +68,13 @@ class Shown:
             self.page.mouse.move(*point, steps=3)
         self.page.mouse.up()
 
+    def draw(self):
+        """Wait until the page is laid out and drawn."""
+        self.page.evaluate("() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+
     def pixels(self):
         """Return what the window shows, shape (height, width, 3)."""
-        self.page.evaluate("() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        self.draw()
         return np.asarray(Image.open(BytesIO(self.page.screenshot())).convert("RGB"))
 
     def colours(self, pane=0, shift=(0, 0)):
