@@ -7,18 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from trihex.cli.options import (
-    PATH,
-    RULES,
-    area_options,
-    of_waypoints,
-    read_described,
-    read_judged,
-    read_played,
-    rule_options,
-    waypoint_options,
-    wrong_use,
-)
+from trihex.cli.described import read_described, read_judged, read_played
+from trihex.cli.options import PATH, RULES, area_options, of_waypoints, rule_options, waypoint_options, wrong_use
 from trihex.cli.outputs import check_outputs, tell_written
 from trihex.cli.progress import bar
 
