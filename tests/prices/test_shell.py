@@ -42,7 +42,7 @@ def test_prices_are_told_written_and_drawn(folder):
     assert "written: p.csv, p.png" in out
     assert "which is the least" in out and "to open (" in out and "best next door: (" in out
     rows = rows_of("p.csv")
-    assert list(rows[0]) == ["x", "y", "kind", "price", "robots", "proven"]
+    assert list(rows[0]) == ["x", "y", "kind", "price", "robots", "proven", "most"]
     assert sum(row["kind"] == "barrier" for row in rows) == WORLD.count("#")
     assert {row["proven"] for row in rows} == {"true"}
     assert not list(folder.glob("*.part"))
@@ -85,7 +85,13 @@ def test_a_door_that_is_not_sought_to_the_end_is_not_proven():
     plan = th.make_plan(crowded_scenario(28), "optimal")
     prices = th.make_prices(plan, kinds="door", stop=lambda: True)
     assert prices.best_door is None and not prices.is_complete
-    assert price_lines(prices)[-1] == "best next door: not known"
+    most = int(prices.most[0])
+    assert price_lines(prices)[-1] == f"best next door: not known; none saves more than {most} units of time"
+    best = th.make_prices(plan, kinds="door")
+    assert best.is_complete and best.most[0] == best.price[0] <= most
+    known = {("door", int(best.cell[0])): int(best.price[0])}
+    part = th.make_prices(plan, kinds="door", known=known, stop=lambda: True)
+    assert part.best_door == best.best_door and part.most[0] >= best.price[0]
 
 
 def test_only_some_kinds_are_priced(folder):

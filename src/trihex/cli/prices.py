@@ -176,8 +176,8 @@ def _door_lines(prices: Any, speed: float) -> list[str]:
     rows = (prices.kind == "door").nonzero()[0]
     if not rows.size:
         return []
+    most = prices.told(int(prices.most[rows[0]]), speed)
     if prices.best_door is None:
-        return ["best next door: not known"]
-    told = _told(prices, rows[0], speed)
-    more = "" if prices.proven[rows[0]] else "; a better one is not ruled out"
-    return [f"best next door: {prices.best_door} saves {told}{more}"]
+        return [f"best next door: not known; none saves more than {most}"]
+    more = "" if prices.proven[rows[0]] else f"; a better one is not ruled out, but none saves more than {most}"
+    return [f"best next door: {prices.best_door} saves {_told(prices, rows[0], speed)}{more}"]

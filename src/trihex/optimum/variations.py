@@ -88,16 +88,29 @@ class Variations:
         """What a step costs."""
         return int(self._graph.scenario.waiting_cost)
 
-    def robots_if_changed(self, cell: int) -> int:
-        """Return how many robots that have to go could arrive if a cell were opened or closed."""
+    def robots_if_opened(self, cells: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Return how many robots that have to go could arrive if a barrier were opened, for each of them."""
+        from trihex.optimum.kernels.variation import count_let_in
+
+        graph = self._graph
+        scratch, let_in = np.empty((3, graph.node_count), dtype=np.int64), np.empty(cells.size, dtype=np.int64)
+        nodes = read_only(graph.node_of_cell[cells])
+        count_let_in(graph.for_kernels, graph.is_barrier, nodes, self._starts(), *scratch, let_in)
+        return let_in + self.robot_count
+
+    def robots_if_closed(self, cell: int) -> int:
+        """Return how many robots that have to go could arrive if a free cell were closed."""
         from trihex.optimum.kernels.variation import count_reached
 
-        graph, scenario = self._graph, self._graph.scenario
-        start = graph.node_of_cell[scenario.robots]
-        start = start[start < graph.first_goal]
+        graph = self._graph
         queue = np.empty(2 * graph.node_count, dtype=np.int64)
         node = int(graph.node_of_cell[cell])
-        return int(count_reached(graph.for_kernels, graph.is_barrier, node, start, queue))
+        return int(count_reached(graph.for_kernels, graph.is_barrier, node, self._starts(), queue))
+
+    def _starts(self) -> NDArray[np.int64]:
+        """Return the nodes of all robots that have to go, whether they can or not."""
+        start = self._graph.node_of_cell[self._graph.scenario.robots]
+        return read_only(start[start < self._graph.first_goal])
 
     def saved_bounds(
         self, cells: NDArray[np.int64], tell: Callable[[int], None] | None = None
@@ -147,20 +160,11 @@ class Variations:
                 return steps - self._steps
             layers *= 2
 
-    def most_saved_by_doors(
-        self, cells: NDArray[np.int64], tell: Callable[[int], None] | None = None
-    ) -> NDArray[np.int64]:
-        """Return how many steps are saved at most if each barrier becomes a destination; `tell`: see `saved_bounds`."""
-        from trihex.optimum.kernels.doors import bound_doors
+    def most_saved_by_door(self, cells: NDArray[np.int64]) -> int:
+        """Return how many steps are saved at most if one of the barriers becomes a destination, whichever it is."""
+        from trihex.optimum.kernels.doors import bound_door
 
-        saved = np.zeros(cells.size, dtype=np.int64)
-        search = self._doors._replace(node=read_only(self._graph.node_of_cell[cells]))
-        share = max(1, _BUDGET * 4 // self._graph.node_count)
-        for first in range(0, cells.size, share):
-            bound_doors(self._graph.for_kernels, search, saved, first, min(first + share, cells.size))
-            if tell:
-                tell(min(first + share, cells.size))
-        return saved
+        return int(bound_door(self._graph.for_kernels, self._doors, read_only(self._graph.node_of_cell[cells])))
 
     def saved_by_door(self, cell: int) -> int:
         """Return how many steps are saved if a barrier becomes a destination."""
@@ -203,7 +207,6 @@ class Variations:
         arrived = np.searchsorted(laid.arrivals, np.arange(laid.last + 1), side="right")
         return given(
             DoorSearch,
-            node=np.empty(0, dtype=np.int64),
             barrier=graph.is_barrier,
             start=laid.start,
             steps=distance.astype(np.int64) // scenario.waiting_cost,

@@ -104,8 +104,8 @@ def close_node(graph, node, words):
 
 
 @kernel(types.int64(SLOT_GRAPH, IN_BOOL, types.int64, IN_I64, OUT_I64))
-def count_reached(graph, barrier, changed, start, queue):
-    """Count the robots that can arrive if a cell is opened that was a barrier, or closed; `queue`: two a node."""
+def count_reached(graph, barrier, closed, start, queue):
+    """Count the robots that can arrive if a cell is closed; `queue`: two a node."""
     size = len(graph.out)
     seen = queue[size:]
     seen[:] = 0
@@ -122,7 +122,7 @@ def count_reached(graph, barrier, changed, start, queue):
         while graph.into[node, j, OFFSET] != 0:
             other = graph.into[node, j, OTHER]
             j += 1
-            if seen[other] == 0 and barrier[other] == (other == changed):
+            if seen[other] == 0 and other != closed and not barrier[other]:
                 seen[other] = 1
                 queue[tail] = other
                 tail += 1
@@ -130,3 +130,79 @@ def count_reached(graph, barrier, changed, start, queue):
     for robot in range(len(start)):
         count += seen[start[robot]]
     return count
+
+
+@HELPER
+def _fill_part(node, part, graph, barrier, parts, queue):
+    """Mark all free cells that can be reached from one, if it has no mark yet; return whether a destination can."""
+    if barrier[node] or parts[node] >= 0:
+        return False
+    parts[node], queue[0] = part, node
+    head, tail, arrives = 0, 1, False
+    while head < tail:
+        node = queue[head]
+        head += 1
+        i = 0
+        while graph.out[node, i, OFFSET] != 0:
+            other = graph.out[node, i, OTHER]
+            i += 1
+            if barrier[other]:
+                continue
+            if other >= graph.first_goal:
+                arrives = True
+            elif parts[other] < 0:
+                parts[other] = part
+                queue[tail] = other
+                tail += 1
+    return arrives
+
+
+@HELPER
+def _arrives(node, graph, barrier, parts, cut_off):
+    """Tell whether a robot in a barrier could arrive if that were open; `cut_off`: robots of a part, -1: it arrives."""
+    i = 0
+    while graph.out[node, i, OFFSET] != 0:
+        other = graph.out[node, i, OTHER]
+        if other >= graph.first_goal:
+            if not barrier[other]:
+                return True
+        elif not barrier[other] and cut_off[parts[other]] < 0:
+            return True
+        i += 1
+    return False
+
+
+@HELPER
+def _count_beside(node, graph, barrier, parts, cut_off):
+    """Count the robots that are cut off in the parts beside a barrier, each part once."""
+    count, i = 0, 0
+    while graph.out[node, i, OFFSET] != 0:
+        other = graph.out[node, i, OTHER]
+        if other < graph.first_goal and not barrier[other]:
+            is_new = True
+            for k in range(i):
+                before = graph.out[node, k, OTHER]
+                if before < graph.first_goal and not barrier[before] and parts[before] == parts[other]:
+                    is_new = False
+            if is_new:
+                count += max(0, cut_off[parts[other]])
+        i += 1
+    return count
+
+
+@kernel(types.void(SLOT_GRAPH, IN_BOOL, IN_I64, IN_I64, OUT_I64, OUT_I64, OUT_I64, OUT_I64))
+def count_let_in(graph, barrier, opened, start, parts, cut_off, queue, let_in):
+    """Write how many robots more can arrive if each of some barriers is opened: those of the parts that it connects."""
+    for node in range(len(parts)):
+        parts[node], cut_off[node] = -1, 0
+    for node in range(graph.first_goal):
+        if _fill_part(node, node, graph, barrier, parts, queue):
+            cut_off[node] = -1
+    for robot in range(len(start)):
+        part = parts[start[robot]]
+        if cut_off[part] >= 0:
+            cut_off[part] += 1
+    for k in range(len(opened)):
+        let_in[k] = 0
+        if _arrives(opened[k], graph, barrier, parts, cut_off):
+            let_in[k] = _count_beside(opened[k], graph, barrier, parts, cut_off)
