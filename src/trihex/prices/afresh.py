@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -57,9 +57,10 @@ class AfreshVariations:
         scenario = self._changed(np.array([cell]))
         return int(_can_arrive(make_n_scheme(scenario)).size)
 
-    def saved_bounds(self, cells: NDArray[np.int64], tell: Callable[[int], None]) -> tuple[NDArray[np.int64], ...]:
-        """Return what opening each barrier saves at least and at most: nothing is known of it."""
-        return np.zeros_like(cells), np.full_like(cells, max(1, self._total))
+    def openings(self, cells: NDArray[np.int64]) -> Iterator[tuple[int, int, int]]:
+        """Yield the place of each barrier, and what opening it saves at least and at most: nothing is known of it."""
+        for place in range(cells.size):
+            yield place, 0, max(1, self._total)
 
     def saved_if_open(self, cell: int) -> int:
         """Return what opening a barrier saves."""

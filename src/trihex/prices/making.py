@@ -1,8 +1,9 @@
-"""How prices are found: what is bound to be nothing first, then what saves most, the best next door last."""
+"""How prices are found: first those of barriers, then those of chokes, then the best next door."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from itertools import chain
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -144,15 +145,19 @@ class _Pricing:
         self.done = self.total = 0
 
     def price_barriers(self, cells: NDArray[np.int64]) -> None:
-        """Price what would be open, first what saves most at least."""
+        """Price what would be open; nearly all saves nothing."""
         cells = self._of_the_same_robots("barrier", cells)
-        least, most = self.variations.saved_bounds(cells, self._told)
-        for place in np.lexsort((cells, -most, -least)).tolist():
-            cell, bound = int(cells[place]), int(least[place])
-            if bound == most[place]:
-                self._add("barrier", cell, bound)
+        begun = 0
+        for place, least, most in chain(self.variations.openings(cells), [(cells.size, 0, 0)]):
+            for cell in cells[begun:place].tolist():
+                self._add("barrier", cell, 0)
+            begun = place + 1
+            if begun > cells.size:
+                break
+            if least == most:
+                self._add("barrier", int(cells[place]), least)
             else:
-                self._price("barrier", cell, self.variations.saved_if_open, bound, int(most[place]))
+                self._price("barrier", int(cells[place]), self.variations.saved_if_open, least, most)
 
     def price_chokes(self, cells: NDArray[np.int64]) -> None:
         """Price what would be closed."""
@@ -165,11 +170,11 @@ class _Pricing:
         search = NextDoor(self.bounds.area, cells, self.variations, self.bounds, self.known)
         while search.most > search.saved and not (search.needs_work and self._is_to_stop()):
             search.look(self._price_of_door)
-            self._told(0, max(self.done, self.total - search.left))
+            self._told(max(self.done, self.total - search.left))
         proven = search.most == search.saved
         if search.saved or not proven:
             self.rows.append(Row("door", search.best_or_next, search.saved, search.most, 0, proven))
-        self._told(0, self.total)
+        self._told(self.total)
 
     def _price_of_door(self, cell: int) -> int:
         """Return what a door saves, in units of time, if it is not known."""
@@ -217,10 +222,10 @@ class _Pricing:
         """Add a row that is proven; `price` is in units of the variations."""
         price *= self.variations.unit
         self.rows.append(Row(kind, cell, price, -1 if robots else price, robots, True))
-        self._told(0, self.done + 1)
+        self._told(self.done + 1)
 
-    def _told(self, looked_at: int, done: int | None = None) -> None:
-        """Tell how many cells are done with; to look at them goes before, and is told of as well."""
-        self.done = self.done if done is None else done
+    def _told(self, done: int) -> None:
+        """Tell how many cells are done with."""
+        self.done = done
         if self.progress:
             self.progress(self.done, self.total)
