@@ -2,6 +2,7 @@
 
 from collections import Counter
 from functools import cache
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -33,7 +34,7 @@ class Others:
         self.goals = set(rules.places(plan.scenario.destinations))
         for other in range(plan.scenario.robot_count):
             way = rules.places(plan.cells_of_robot(other))
-            for step, (start, end) in enumerate(zip(way, way[1:], strict=False), 1):
+            for step, (start, end) in enumerate(pairwise(way), 1):
                 if other == robot:
                     continue
                 if end in self.goals:
@@ -171,7 +172,7 @@ def test_rounds_are_a_number():
 
 def test_what_does_not_fit_into_memory_is_refused(monkeypatch):
     monkeypatch.setattr("trihex.planners.mending.available_memory", lambda: 1000)
-    with pytest.raises(th.TooLargeError, match="to look ahead would take 0.0 GiB, more than is free; choose rounds=0"):
+    with pytest.raises(th.TooLargeError, match=r"to look ahead would take 0.0 GiB, .* free; choose rounds=0"):
         th.make_plan(crowd())
 
 
