@@ -126,6 +126,10 @@ CASES = {
     "area beyond all size": (None, ["generate", "random", "--size", "99999999,99999999", "--out", "a.map"], "an area may have at most 2000000000 cells, not 99999999 x 99999999"),
     "robots as an area": (None, ["convert", "world.txt", "world2.map"], "world2.map: the suffix of a scenario must be one of .toml, .txt, not '.map'"),
     "plan as an area": (None, ["convert", "plan.csv", "a.map"], "a.map: the suffix of a plan, waypoints, dependencies or layers must be one of *, not '.map'"),
+    "an order as waypoints of a run": (None, ["run", "world.map", *AIM, "--robots", "1", "--waypoints", "r.dependencies.json"], "r.dependencies.json: the suffix of waypoints must be one of *, not '.dependencies.json': that is for who waits for whom in a plan (write_dependencies, trihex plan --out)"),
+    "turn time of a table": (None, ["convert", "plan.npz", "p.csv", "--turn-time", "2"], "--turn-time is for waypoints; p.csv holds none without --waypoints"),
+    "turn time of an order": (None, ["convert", "plan.npz", "p.dependencies.json", "--turn-time", "2"], "--turn-time is for waypoints; p.dependencies.json holds none"),
+    "turn time of an area": (None, ["convert", "world.map", "a.txt", "--turn-time", "2"], "--turn-time is for plans; world.map holds none"),
     "rules for an area": (None, ["convert", "world.map", "a.txt", *AIM], "--destination is for plans; world.map holds none"),
 }  # fmt: skip
 

@@ -11,8 +11,9 @@ from typing import Any
 
 import click
 
+from trihex.cli.described import complete, read_described
 from trihex.cli.group import DONE, INTERRUPTED, NO
-from trihex.cli.options import PATH, area_options, complete, read_described, robot_options, rule_options
+from trihex.cli.options import PATH, area_options, robot_options, rule_options
 from trihex.cli.outputs import check_outputs, tell_written
 from trihex.cli.progress import bar
 from trihex.cli.types import Metres, Name, Seconds
