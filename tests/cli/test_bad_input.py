@@ -161,6 +161,16 @@ def test_bad_input(folder, case):
     assert set(folder.iterdir()) == before
 
 
+@pytest.mark.parametrize("command", [["prices", "--out"], ["view", "--port"], ["plan", "world.map", "--out"]])
+def test_an_option_without_a_value_leads_to_the_help_of_its_command(folder, command):
+    result = CliRunner().invoke(main, command)
+    assert (
+        result.stderr
+        == f"trihex: error: Option '{command[-1]}' requires an argument (see trihex {command[0]} --help)\n"
+    )
+    assert result.exit_code == 2
+
+
 def test_all_mistakes_of_a_scenario_are_told(folder):
     (folder / "s.toml").write_text('colour = 1\n[area]\nrows = ["..", ".."]\ncosts = "cheap"\n')
     result = CliRunner().invoke(main, ["plan", "s.toml"])
