@@ -123,13 +123,45 @@ def test_prices_that_rise_cost_as_little(monkeypatch, share):
     assert len(found) >= len(seeds) / 4  # where waiting is free no flow is needed
 
 
-def test_prices_know_shut_doors_and_robots_that_may_not_go_yet(monkeypatch):
-    plan_at_prices(monkeypatch, 1)
-    for seed in (900_010, 900_046, 900_047, *range(4_000, 4_000 + swept(60, 9))):
-        scenario = with_random_doors(with_start_times(crowded_scenario(seed), seed))
+def with_doors_and_start_times(seed):
+    return with_random_doors(with_start_times(crowded_scenario(seed), seed))
+
+
+@pytest.mark.parametrize("rebate", REBATES)
+def test_prices_know_shut_doors_and_robots_that_may_not_go_yet(monkeypatch, rebate):
+    """In the last three robots stand in cells that are doors, so that no way leads on past their gates."""
+    plan_at_prices(monkeypatch, rebate)
+    find_paths, is_toll_laid = priced._PricedWork.find_paths, []
+    monkeypatch.setattr(
+        priced._PricedWork, "find_paths", lambda work, *how: is_toll_laid.append(how[0]) or find_paths(work, *how)
+    )
+    for seed in (900_010, 900_046, 900_047, *range(4_000, 4_000 + swept(60, 3)), 4_019, 4_020, 4_029):
+        scenario = with_doors_and_start_times(seed)
         plan = make_plan(scenario, "optimal")
         assert th.audit_plan(plan).is_clean, seed
         assert plan.total_time == oracle_flow.least_total_time(scenario, plan.steps + 5), seed
+    assert all(is_toll_laid)
+
+
+def test_prices_begin_at_0_once_more_where_tolls_are_not_fair(monkeypatch):
+    """A toll at a gate from which no way leads on, as tests had found it: it would fall for ever."""
+    plan_at_prices(monkeypatch, 1)
+    lay_tolls, laid = priced._PricedWork.lay_tolls, []
+
+    def lay_dead_end(work):
+        laid.append(lay_tolls(work))
+        words = work.nodes.leaving
+        dead = np.flatnonzero(words == words.max())[:1]
+        # 5 units more, wanted (4) and passed (8); whoever was laid there goes on by the first arc.
+        work.nodes.entering[dead], work.nodes.flow[dead] = words[dead] + (5 << 4) | 4 | 8, 1
+        return np.concatenate([laid[-1], dead])
+
+    monkeypatch.setattr(priced._PricedWork, "lay_tolls", lay_dead_end)
+    scenario = with_doors_and_start_times(4_029)
+    plan = make_plan(scenario, "optimal")
+    assert len(laid) == 1
+    assert th.audit_plan(plan).is_clean
+    assert plan.total_time == oracle_flow.least_total_time(scenario, plan.steps + 5)
 
 
 @pytest.mark.parametrize("share", range(5))

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from trihex.errors import TooLargeError
 from trihex.memory import limit_or_default
 from trihex.optimum.doors import shut_doors
 from trihex.optimum.flow import Flow
@@ -46,25 +47,14 @@ def make_flow_at_prices(
     memory_limit: int | None = None,
 ) -> Flow:
     """Find paths of least total cost; for parameters and errors see `trihex.optimum.make_flow_singly`."""
-    from trihex.optimum.kernels.lowering import lower_prices
-    from trihex.optimum.kernels.prices import SERVED, TOTAL
-    from trihex.optimum.kernels.residual import DONE
-    from trihex.optimum.kernels.serving import serve_at_prices
+    from trihex.optimum.kernels.prices import NEVER
 
-    work = _PricedWork(network, cells, memory_limit)
-    wanted = work.lay_tolls()
-    status = None
-    while status != DONE:
-        status = serve_at_prices(work.graph, work.nodes, work.search, _BUDGET)
-        if progress:
-            progress(int(work.search.state[SERVED]), cells.size)
-        work.make_room(status)
-    status = None
-    while status != DONE:
-        status = lower_prices(wanted, work.graph, work.nodes, work.search)
-        work.make_room(status)
-    total = int(work.search.state[TOTAL]) + int(network.value[cells].sum(dtype=np.int64))
-    return Flow(network, work.search.start, work.nodes.flow, total * network.unit)
+    # Tolls only save time: prices that begin at 0 are fair whatever they may have been.
+    for begins_with_tolls in (True, False):
+        work = _PricedWork(network, cells, memory_limit)
+        if work.find_paths(begins_with_tolls, progress):
+            return work.flow()
+    raise TooLargeError(f"costs above {NEVER} units for a robot cannot be searched; choose a smaller waiting_cost")
 
 
 class _PricedWork:
@@ -90,21 +80,42 @@ class _PricedWork:
         self.nodes.leaving[self.search.start] = kernels.RISES
         self._open_layers(0)
 
-    def lay_tolls(self) -> NDArray[np.int64]:
-        """Begin with prices at which arrivals cost a little less than they will; return nodes where tolls are due.
+    def find_paths(self, begins_with_tolls: bool, progress: Callable[[int, int], None] | None) -> bool:
+        """Find the paths of all robots; return whether there are any at prices that can be written."""
+        from trihex.optimum.kernels.lowering import lower_prices
+        from trihex.optimum.kernels.prices import SERVED
+        from trihex.optimum.kernels.residual import DONE, EXHAUSTED
+        from trihex.optimum.kernels.serving import serve_at_prices
 
-        Where robots have start times or doors a flow prices begin at 0.
-        """
+        wanted = self.lay_tolls() if begins_with_tolls else np.zeros(0, dtype=np.int64)
+        status = None
+        while status not in (DONE, EXHAUSTED):
+            status = serve_at_prices(self.graph, self.nodes, self.search, _BUDGET)
+            if progress:
+                progress(int(self.search.state[SERVED]), self.cells.size)
+            self.make_room(status)
+        while status != EXHAUSTED:
+            status = lower_prices(wanted, self.graph, self.nodes, self.search)
+            if status == DONE:
+                return True
+            self.make_room(status)
+        return False
+
+    def flow(self) -> Flow:
+        """Return the flow that was found."""
+        from trihex.optimum.kernels.prices import TOTAL
+
+        network, search = self.network, self.search
+        total = int(search.state[TOTAL]) + int(network.value[self.cells].sum(dtype=np.int64))
+        return Flow(network, search.start, self.nodes.flow, total * network.unit)
+
+    def lay_tolls(self) -> NDArray[np.int64]:
+        """Begin with prices at which arrivals cost a little less than they will; return nodes where tolls are due."""
         from trihex.kernels.signatures import given
         from trihex.optimum.kernels import tolled as kernels
         from trihex.optimum.kernels.prices import BITS, NEVER, TOTAL, WANTED
 
         network = self.network
-        scenario = network.scenario
-        if scenario.has_start_times or scenario.has_flows:
-            # What arrivals are worth is not known there, and `lower_prices` did not always end: three of 30 small
-            # scenarios whose tolls were made too dear.
-            return np.zeros(0, dtype=np.int64)
         room = room_of_slots(network, self.layers)
         prices = price_arrivals(network, self.cells, room)
         tolls = np.minimum(np.maximum(prices - _REBATE * network.base, 0), NEVER // 4).astype(np.int32)

@@ -2,6 +2,12 @@
 
 All that could come there along tight arcs costs one unit less, and so on, until somebody who arrives elsewhere may as
 well come there, or the toll is no more.
+
+That ends whatever the prices were: each call lets somebody come, which leaves one place fewer to come to, or lowers the
+prices of all nodes missed by at least 1, and does not go on if one of them is below 0. Among fair prices none can be: a
+node missed is a destination, or an arc with flow leads from it to one, and its price is at least the cost of that arc;
+and at a destination that costs nothing a walk ends. (Once a toll was laid at a gate from which no way led on, as a
+robot stood behind it, and it fell below all that there was.)
 """
 
 from numba import types
@@ -12,6 +18,7 @@ from trihex.optimum.kernels.prices import (
     ENTERING,
     GRAPH,
     MARKED,
+    NEVER,
     NODES,
     SEARCH,
     SEEN,
@@ -20,7 +27,7 @@ from trihex.optimum.kernels.prices import (
     put_word,
     word_of,
 )
-from trihex.optimum.kernels.residual import BUDGET_SPENT, DONE, LIST_FULL, OWN
+from trihex.optimum.kernels.residual import BUDGET_SPENT, DONE, EXHAUSTED, LIST_FULL, OWN
 from trihex.optimum.kernels.serving import settle
 from trihex.optimum.kernels.walking import SIDE, arrive, forget, lay, tail, walk_back
 
@@ -50,13 +57,16 @@ def _slack(side, graph, nodes):
 
 @HELPER
 def _lower(graph, nodes, search):
-    """Lower the prices of all that walks have seen until they see more."""
-    least = 1 << 29
+    """Lower the prices of all that walks have seen until they see more; return whether they could."""
+    least = NEVER
     for i in range(search.state[MARKED]):
         least = min(least, _slack(search.seen[i], graph, nodes))
+    if least <= 0 or least == NEVER:
+        return False
     for i in range(search.state[MARKED]):
         side = search.seen[i]
         put_word(side, word_of(side, nodes) - (least << BITS), nodes)
+    return True
 
 
 @HELPER
@@ -73,7 +83,10 @@ def _come(at, depth, graph, nodes, search):
 
 @kernel(types.int64(IN_I64, GRAPH, NODES, SEARCH))
 def lower_prices(wanted, graph, nodes, search):
-    """Let somebody come to one of the nodes, or lower prices, all robots having paths; to be called until done."""
+    """Let somebody come to one of the nodes, or lower prices, all robots having paths; to be called until done.
+
+    It is `EXHAUSTED` if neither goes on, which unfair prices alone can bring about.
+    """
     settle(nodes, search)
     is_done = True
     for at in wanted:
@@ -87,5 +100,9 @@ def lower_prices(wanted, graph, nodes, search):
                 return BUDGET_SPENT
     if is_done:
         return DONE
-    _lower(graph, nodes, search)
+    if not _lower(graph, nodes, search):
+        return EXHAUSTED
+    for at in wanted:
+        if _is_missed(at, graph, nodes) and nodes.entering[at] < 0:
+            return EXHAUSTED
     return BUDGET_SPENT

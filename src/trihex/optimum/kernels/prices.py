@@ -34,7 +34,8 @@ VAIN = 9  # arrivals for which a walk was in vain
 BEFORE = 10  # robots that had a path before these walks
 UNTIL = 11  # the rise after which what rises is found anew, as nothing has been filed for later ones
 AHEAD = 12  # for how many units to come sides are filed: few if what rises has to be found anew soon in any case
-STATE_SIZE = 13
+ANEW = 13  # robots that had a path when what rises was found anew
+STATE_SIZE = 14
 
 
 class PricedNodes(NamedTuple):

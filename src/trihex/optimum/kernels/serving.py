@@ -13,6 +13,7 @@ from trihex.kernels.signatures import APART, HELPER, kernel
 from trihex.optimum.kernels.flow_byte import START, arc_out
 from trihex.optimum.kernels.prices import (
     AHEAD,
+    ANEW,
     ARCS,
     ARRIVALS,
     BEFORE,
@@ -24,6 +25,7 @@ from trihex.optimum.kernels.prices import (
     LEAVING,
     LISTED,
     MARKED,
+    NEVER,
     NEXT,
     NODES,
     PASSED,
@@ -43,6 +45,7 @@ from trihex.optimum.kernels.raising import begin_to_rise, raise_prices, reach, r
 from trihex.optimum.kernels.residual import (
     BUDGET_SPENT,
     DONE,
+    EXHAUSTED,
     LAYERS_FULL,
     LIST_FULL,
     NONE,
@@ -83,7 +86,8 @@ def _begin_anew(nodes, search):
     """Let rise no longer what no robot without path may come to any more: all but where these robots are."""
     state = search.state
     settle(nodes, search)
-    state[BEFORE], state[UNTIL] = state[SERVED], state[RISE] + state[AHEAD]
+    state[BEFORE] = state[ANEW] = state[SERVED]
+    state[UNTIL] = state[RISE] + state[AHEAD]
     for start in search.start:
         if nodes.flow[start] == START << 4:
             begin_to_rise(start * 2 + LEAVING, nodes, search)
@@ -129,7 +133,11 @@ def _is_full(graph, search):
 
 @kernel(types.int64(GRAPH, NODES, SEARCH, types.int64))
 def serve_at_prices(graph, nodes, search, budget):
-    """Serve robots until all have a path, room is needed or about `budget` sides have been seen; to be called again."""
+    """Serve robots until all have a path, room is needed or about `budget` sides have been seen; to be called again.
+
+    It is `EXHAUSTED` if somebody pays more than words can hold, or cannot come where all that rises leads back to him,
+    which unfair prices alone can bring about.
+    """
     state = search.state
     while budget > 0:
         if state[SERVED] == len(search.start):
@@ -152,6 +160,8 @@ def serve_at_prices(graph, nodes, search, budget):
             budget -= state[MARKED] - seen
         elif state[VAIN] and state[SERVED] > state[BEFORE]:
             _try_again(nodes, search)
+        elif state[RISE] == NEVER or (state[VAIN] and state[ANEW] == state[SERVED]):
+            return EXHAUSTED
         elif state[VAIN]:
             state[AHEAD] = max(state[AHEAD] // 2, 1)
             _begin_anew(nodes, search)

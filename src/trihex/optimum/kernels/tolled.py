@@ -29,7 +29,10 @@ TOLLED = declared(Tolled)
 
 @HELPER
 def _best_arc(at, node, graph, nodes):
-    """Return the index of the node to go on to at the least cost, the place of the arc, and that cost."""
+    """Return the index of the node to go on to at the least cost, the place of the arc, and that cost.
+
+    The index is NONE where no way leads on: past a gate behind which a robot stands until it may go.
+    """
     least, place, best = NEVER, 0, NONE
     for k in range(graph.out.shape[1]):
         head = at + graph.out[node, k, OFFSET]
@@ -57,7 +60,7 @@ def _open_goals(layer, graph, nodes, tolled):
 def _toll_at(head, graph, nodes, tolled):
     """Return the toll that is due where an arc to a node begins, 0 unless that is a destination."""
     layer, goal = head // len(graph.out), head % len(graph.out) - graph.first_goal
-    if goal < 0 or head >= len(nodes.flow) or tolled.is_limited[layer, goal]:
+    if head == NONE or goal < 0 or head >= len(nodes.flow) or tolled.is_limited[layer, goal]:
         return 0
     return tolled.tolls[layer, goal]
 
