@@ -67,7 +67,7 @@ def test_robots_served_one_after_another_cost_as_little(monkeypatch, budget):
 @pytest.mark.parametrize("planner", ["fcost", "greedy"])
 def test_slots_exchanged_for_earlier_ones_cost_as_little(monkeypatch, planner, budget):
     monkeypatch.setattr(optimal, "make_flow_singly", lambda *arguments, **options: None)
-    monkeypatch.setattr(optimal, "plan_fcost", planner_named(planner))
+    monkeypatch.setattr(optimal, "plan_fcost", lambda n_scheme, **options: planner_named(planner)(n_scheme))
     changes = {"_BUDGET": budget, "_LOG": 16}
     if budget == 20:  # labels found anew before each search
         changes |= {"_PATIENCE": 0, "_SHARE": 0}
