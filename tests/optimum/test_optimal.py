@@ -85,7 +85,7 @@ def crowd_that_crosses(seed):
 def test_labels_found_anew_change_no_optimum(monkeypatch, share):
     """What is found dead stays so: one late path's nodes taken for dead were too much in 9 of the first 60."""
     monkeypatch.setattr(optimal, "make_flow_singly", lambda *arguments, **options: None)
-    monkeypatch.setattr(optimal, "plan_fcost", planner_named("greedy"))
+    monkeypatch.setattr(optimal, "plan_fcost", lambda n_scheme, **options: planner_named("greedy")(n_scheme))
     find, times = earliest._find_labels, []
     monkeypatch.setattr(earliest, "_find_labels", lambda *arguments: times.append(1) or find(*arguments))
     for seed in ((17, 20, 22, 38, 40)[share], *range(share, swept(25, 5), 5)):
