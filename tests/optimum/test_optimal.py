@@ -137,6 +137,27 @@ def test_prices_begin_at_0_once_more_where_tolls_are_not_fair(monkeypatch):
     assert plan.total_time == oracle_flow.least_total_time(scenario, plan.steps + 5)
 
 
+def test_robots_that_queue_where_one_arrives_in_a_step_go_there_at_once(monkeypatch):
+    """Nobody else is in the way of nearly all of them, so that hardly any has to be searched for."""
+    go, found = priced._PricedWork._go_to_goals, []
+
+    def go_and_count(work, slot):
+        go(work, slot)
+        found.append(np.count_nonzero(work.nodes.flow[work.search.start] & 15) / work.cells.size)
+
+    monkeypatch.setattr(priced._PricedWork, "_go_to_goals", go_and_count)
+    for seed, tessellation in enumerate(("triangular", "square")):
+        area = th.make_caves_area(tessellation, 12, 12, seed=seed)
+        goal = th.random_robots(area, 1, seed=seed)
+        robots = th.random_robots(area, 22, seed=seed + 1, avoid=goal)
+        scenario = th.Scenario(area, goal, robots, destination_capacity=1, start_times=[seed] * 22)
+        plan = make_plan(scenario, "optimal")
+        assert th.audit_plan(plan).is_clean
+        assert plan.total_time == oracle_flow.least_total_time(scenario, plan.steps + 2), seed
+    assert len(found) == 2
+    assert min(found) > 0.9, found
+
+
 @pytest.mark.parametrize("share", range(5))
 def test_the_ways_to_the_optimum_agree(monkeypatch, share):
     monkeypatch.setattr(optimal, "make_flow_singly", lambda *arguments, **options: None)
@@ -245,6 +266,9 @@ def test_what_would_not_fit_is_refused_with_the_estimate():
         th.TooLargeError, match=r"at least \d+\.\d GiB \(\d+ steps of \d+ cells and vertices\), more than"
     ):
         make_plan(scenario, "optimal", memory_limit=1000)
+    queue = th.Scenario(area, [(0, 0)], scenario.robots, destination_capacity=1)
+    with pytest.raises(th.TooLargeError, match="area, a destination_capacity above 1, or use planner 'fcost'"):
+        make_plan(queue, "optimal", memory_limit=1000)
     with pytest.raises(th.PlanError, match="objective must be one of time, steps, not 'step'; did you mean 'steps'"):
         make_plan(scenario, "optimal", objective="step")
 
