@@ -12,6 +12,8 @@ from trihex.errors import FormatError, check_choice, check_path
 
 # A cell or a robot-step takes a byte at least: 10^9 of them are more than a text file should hold.
 MAX_BYTES = 2**30
+# Who waits for whom; a file of another kind must not lie under such a name, though .json be its suffix, too.
+ORDER_SUFFIXES = (".dependencies.json", ".vda5050.json")
 
 
 def read_bytes(path: str | os.PathLike[str], limit: int = MAX_BYTES) -> bytes:
@@ -46,10 +48,14 @@ def suffix_of(path: str | os.PathLike[str], suffixes: Iterable[str], kind: str) 
     """Return the suffix of `path` if it is one of `suffixes`, else raise FormatError naming the `kind` of file."""
     check_path(path)
     suffixes, name = list(suffixes), Path(path).name.lower()
-    for suffix in suffixes:
-        if suffix.count(".") > 1 and name.endswith(suffix) and name != suffix:  # such as .dependencies.json
-            return suffix
-    return check_choice(f"{path}: the suffix of {kind}", Path(path).suffix.lower(), suffixes, FormatError)
+    own = next((one for one in ORDER_SUFFIXES if name.endswith(one) and name != one), Path(path).suffix.lower())
+    if own in ORDER_SUFFIXES and own not in suffixes:
+        others = ", ".join(suffixes)
+        raise FormatError(
+            f"{path}: the suffix of {kind} must be one of {others}, not {own!r}: that is for who waits for "
+            f"whom in a plan (write_dependencies, trihex plan --out)"
+        )
+    return check_choice(f"{path}: the suffix of {kind}", own, suffixes, FormatError)
 
 
 @contextmanager

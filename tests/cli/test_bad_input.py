@@ -126,6 +126,10 @@ CASES = {
     "area beyond all size": (None, ["generate", "random", "--size", "99999999,99999999", "--out", "a.map"], "an area may have at most 2000000000 cells, not 99999999 x 99999999"),
     "robots as an area": (None, ["convert", "world.txt", "world2.map"], "world2.map: the suffix of a scenario must be one of .toml, .txt, not '.map'"),
     "plan as an area": (None, ["convert", "plan.csv", "a.map"], "a.map: the suffix of a plan, waypoints, dependencies or layers must be one of *, not '.map'"),
+    "an order as waypoints of a run": (None, ["run", "world.map", *AIM, "--robots", "1", "--waypoints", "r.dependencies.json"], "r.dependencies.json: the suffix of waypoints must be one of *, not '.dependencies.json': that is for who waits for whom in a plan (write_dependencies, trihex plan --out)"),
+    "turn time of a table": (None, ["convert", "plan.npz", "p.csv", "--turn-time", "2"], "--turn-time is for waypoints; p.csv holds none without --waypoints"),
+    "turn time of an order": (None, ["convert", "plan.npz", "p.dependencies.json", "--turn-time", "2"], "--turn-time is for waypoints; p.dependencies.json holds none"),
+    "turn time of an area": (None, ["convert", "world.map", "a.txt", "--turn-time", "2"], "--turn-time is for plans; world.map holds none"),
     "rules for an area": (None, ["convert", "world.map", "a.txt", *AIM], "--destination is for plans; world.map holds none"),
 }  # fmt: skip
 
@@ -155,6 +159,16 @@ def test_bad_input(folder, case):
     assert result.stdout == ""
     assert result.exit_code == 2
     assert set(folder.iterdir()) == before
+
+
+@pytest.mark.parametrize("command", [["prices", "--out"], ["view", "--port"], ["plan", "world.map", "--out"]])
+def test_an_option_without_a_value_leads_to_the_help_of_its_command(folder, command):
+    result = CliRunner().invoke(main, command)
+    assert (
+        result.stderr
+        == f"trihex: error: Option '{command[-1]}' requires an argument (see trihex {command[0]} --help)\n"
+    )
+    assert result.exit_code == 2
 
 
 def test_all_mistakes_of_a_scenario_are_told(folder):

@@ -20,6 +20,9 @@ from tests.cli import test_bad_input
 from tests.test_mistakes_in_python import chapter_lines
 from trihex import Area, Scenario, write_plan
 from trihex.cli import main
+from trihex.fields import every_field_kernels
+from trihex.kernels.needs import KERNELS_OF
+from trihex.kernels.preparing import prepare
 from trihex.plans import plan_from_lists
 
 TABLE = Path(__file__).parents[2] / "docs" / "mistakes.md"
@@ -210,6 +213,7 @@ def test_the_table_in_the_docs_is_what_trihex_says(folder):
 
 
 if __name__ == "__main__":
+    prepare(*KERNELS_OF, *every_field_kernels())  # or the first commands would tell that they compile
     with TemporaryDirectory() as name:
         fill(Path(name))
         os.chdir(name)

@@ -429,7 +429,7 @@ def test_bars_are_for_terminals_only(folder):
 
 
 def test_every_command_is_listed(folder):
-    helpers = {"group", "maps", "options", "outputs", "progress", "texts", "tiles", "types"}
+    helpers = {"described", "group", "maps", "options", "outputs", "progress", "texts", "tiles", "types"}
     modules = {path.stem for path in Path(trihex.cli.__file__).parent.glob("[a-z]*.py")}
     assert modules == helpers | COMMANDS.keys()
 

@@ -163,6 +163,8 @@ def test_flows_a_second_are_judged_at_the_speed_of_the_plan(tmp_path, monkeypatc
     for speed, status in (((), 1), (("--speed", 0.5), 0)):
         assert run("convert", "p.csv", "p.npz", "--area", *size, *speed).exit_code == 0
         assert run("check", "p.npz").exit_code == status
+    for told, status in ((["--speed", 0.5], 2), (["--speed", 0.5, "--capacity", "east=0.6/s"], 0)):
+        assert run("convert", "p.npz", "again.csv", *told).exit_code == status  # the plan knows flows a step alone
     summary = run("check", "p.npz", "--capacity", "east=0.6/s", "--speed", 0.5, "--summary", "-")
     assert '"east": "0.6/s"' in summary.output and '"conflicts": 0' in summary.output
 

@@ -9,7 +9,7 @@ import shapely
 from PIL import Image
 
 import trihex as th
-from trihex.areas import TESSELLATIONS, Area, RasterGround, Scenario, Tessellation
+from trihex.areas import TESSELLATIONS, Area, Frame, RasterGround, Scenario, Tessellation
 from trihex.errors import FormatError, TooLargeError
 from trihex.fields import make_d_scheme, make_n_scheme
 from trihex.kernels.codes import WAIT
@@ -23,7 +23,7 @@ from trihex.pictures import (
 )
 from trihex.pictures.png import paint
 from trihex.pictures.scene import Bar, Discs, Key, Lines, Ramp, Scene, Texts, centres_of, colour_rows
-from trihex.pictures.sheet import arrange
+from trihex.pictures.sheet import RAMP_WIDTH, TEXT_SIZE, arrange, width_of
 from trihex.plans import plan_from_lists
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -299,6 +299,19 @@ def test_titles_are_escaped_and_wrapped():
     assert picture.to_array().shape[1] == 300
     root = ET.fromstring(picture.to_svg())
     assert next(root.iter(f"{SVG}text")).text.startswith("<b>&long long")
+
+
+def test_the_page_of_a_narrow_corridor_is_as_wide_as_its_legend():
+    """Robots a square metre, with colours and numbers, need more than the 300 pixels that a page has at least."""
+    area = Area("hexagonal", np.zeros((60, 2)), frame=Frame(0.5))
+    plan = th.make_plan(Scenario(area, [(0, 0)], [(1, 40), (0, 50)]), "greedy")
+    picture = th.picture_of_density(plan, width=60)
+    sheet = arrange(picture.scene)
+    ((left, _, ramp),) = sheet.ramps
+    assert ramp.words == "robots a square metre"
+    assert 300 < left + RAMP_WIDTH + width_of(ramp.high, TEXT_SIZE) < sheet.width
+    page = picture.to_array()
+    assert page.shape[1] == sheet.width and (page[:, -14:] == palette.PAGE).all()
 
 
 def test_saved_png_is_what_was_painted(tmp_path):

@@ -70,7 +70,7 @@ def test_prices_are_those_of_optima_made_afresh():
 
 
 def test_the_best_door_saves_most_of_all_barriers():
-    found = 0
+    found = unfinished = 0
     for seed in range(swept(10, 6)):
         scenario = crowded_scenario(seed, 5, 9)
         plan = th.make_plan(scenario, "optimal")
@@ -84,14 +84,21 @@ def test_the_best_door_saves_most_of_all_barriers():
         assert [int(prices.price[i]) for i in rows] == ([best] if best else [])
         assert_is_afresh(prices, rows)
         found += len(rows)
-    assert found
+        stopped = [th.make_prices(plan, kinds="door", stop=iter([False] * k + [True] * 999).__next__) for k in range(3)]
+        for part in stopped:
+            assert all(part.price <= best) and all(part.most >= best) and all(part.proven == (part.most == part.price))
+            assert part.cell.size or best == 0
+        unfinished += not stopped[0].is_complete
+    assert found and unfinished
 
 
 def test_the_chokes_are_the_cells_of_least_cuts():
     area = th.Area(th.Tessellation("square", "edge"), [[0, 1, 0], [0, 0, 0], [0, 1, 0]])
     plan = th.make_plan(th.Scenario(area, [(2, 1)], [(0, 0), (0, 2), (0, 1)]), "optimal")
     prices = th.make_prices(plan, kinds=["choke"])
-    assert prices.rows() == [{"x": 1, "y": 1, "kind": "choke", "price": None, "robots": -3, "proven": True}]
+    assert prices.rows() == [
+        {"x": 1, "y": 1, "kind": "choke", "price": None, "robots": -3, "proven": True, "most": None}
+    ]
 
 
 @pytest.mark.parametrize(
@@ -147,8 +154,8 @@ def test_prices_are_an_array_of_the_area_and_rows():
     prices = th.make_prices(plan, kinds="barrier")
     assert prices.price_of_cell("barrier").tolist() == [[-1, 60, -1], [-1, 40, -1], [-1, -1, -1]]
     assert prices.rows(speed=0.5) == [
-        {"x": 1, "y": 0, "kind": "barrier", "price": 60, "seconds": 6.0, "robots": 0, "proven": True},
-        {"x": 1, "y": 1, "kind": "barrier", "price": 40, "seconds": 4.0, "robots": 0, "proven": True},
+        {"x": 1, "y": 0, "kind": "barrier", "price": 60, "seconds": 6.0, "robots": 0, "proven": True, "most": 60},
+        {"x": 1, "y": 1, "kind": "barrier", "price": 40, "seconds": 4.0, "robots": 0, "proven": True, "most": 40},
     ]
     assert prices.best_door is None
     assert th.make_prices(plan, kinds="door").best_door in {(1, 0), (1, 1)}

@@ -42,7 +42,7 @@ def test_prices_are_told_written_and_drawn(folder):
     assert "written: p.csv, p.png" in out
     assert "which is the least" in out and "to open (" in out and "best next door: (" in out
     rows = rows_of("p.csv")
-    assert list(rows[0]) == ["x", "y", "kind", "price", "robots", "proven"]
+    assert list(rows[0]) == ["x", "y", "kind", "price", "robots", "proven", "most"]
     assert sum(row["kind"] == "barrier" for row in rows) == WORLD.count("#")
     assert {row["proven"] for row in rows} == {"true"}
     assert not list(folder.glob("*.part"))
@@ -85,7 +85,13 @@ def test_a_door_that_is_not_sought_to_the_end_is_not_proven():
     plan = th.make_plan(crowded_scenario(28), "optimal")
     prices = th.make_prices(plan, kinds="door", stop=lambda: True)
     assert prices.best_door is None and not prices.is_complete
-    assert price_lines(prices)[-1] == "best next door: not known"
+    most = int(prices.most[0])
+    assert price_lines(prices)[-1] == f"best next door: not known; none saves more than {most} units of time"
+    best = th.make_prices(plan, kinds="door")
+    assert best.is_complete and best.most[0] == best.price[0] <= most
+    known = {("door", int(best.cell[0])): int(best.price[0])}
+    part = th.make_prices(plan, kinds="door", known=known, stop=lambda: True)
+    assert part.best_door == best.best_door and part.most[0] >= best.price[0]
 
 
 def test_only_some_kinds_are_priced(folder):
@@ -96,7 +102,12 @@ def test_only_some_kinds_are_priced(folder):
 def test_robots_that_cannot_arrive_make_the_status_one(folder):
     Path("world.txt").write_text("..#..\n")
     command = ["prices", "world.txt", "--destination", "4,0", "--robots", "2", "--seed", "1"]
-    assert "1 change who can arrive" in run(*command, status=1)
+    out = run(*command, status=1)
+    assert "barriers: 0 save time to open, 0 save nothing, 1 let more robots arrive\n" in out
+    assert "  to open (2, 0) lets 2 more robots arrive\n" in out
+    Path("world.txt").write_text("....\n")
+    out = run("prices", "world.txt", "--destination", "3,0", "--robots", "3", "--seed", "1", "--kind", "choke")
+    assert "1 cut robots off\n  to close (2, 0) cuts 3 robots off, one of which starts there\n" in out
 
 
 def test_a_journal_keeps_what_was_told_and_knows_its_scenario(tmp_path):
@@ -137,4 +148,9 @@ def test_barriers_that_save_more_are_drawn_darker():
     with_door = th.picture_of_prices(th.make_prices(plan), width=300)
     assert any("best next door" in key.words for key in with_door.scene.legend)
     assert not np.array_equal(picture.to_array(), with_door.to_array())
+    assert not any("who can arrive" in key.words for key in picture.scene.legend)
+    row = th.Scenario(th.Area("square", [[0, 0, 0]]), destinations=[(2, 0)], robots=[(0, 0)])
+    cut_off = th.picture_of_prices(th.make_prices(th.make_plan(row, "optimal")), width=300).scene
+    assert cut_off.legend[0].words == "changes who can arrive"
+    assert cut_off.colours[cut_off.colour_of_cell[0, 1]].tolist() == list(cut_off.legend[0].colour)
     assert "Prices" in th.draw_prices(th.make_prices(plan)).get_title()

@@ -7,7 +7,8 @@ from typing import Any
 
 import click
 
-from trihex.cli.options import PATH, area_options, read_played, rule_options, wrong_use
+from trihex.cli.described import read_played
+from trihex.cli.options import PATH, area_options, rule_options, wrong_use
 from trihex.cli.outputs import check_outputs
 from trihex.cli.progress import bar
 from trihex.cli.types import Metres, Whole

@@ -7,8 +7,9 @@ from typing import Any
 
 import click
 
+from trihex.cli.described import read_played
 from trihex.cli.group import DONE, NO
-from trihex.cli.options import PATH, area_options, of_waypoints, read_played, rule_options
+from trihex.cli.options import PATH, area_options, of_waypoints, rule_options
 from trihex.cli.outputs import check_outputs, tell_written
 from trihex.cli.progress import bar
 from trihex.cli.types import Metres, Seconds, Whole

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from trihex.cli.described import complete, read_described
 from trihex.cli.group import DONE, NO
-from trihex.cli.options import PATH, area_options, complete, read_described, robot_options, rule_options, wrong_use
+from trihex.cli.options import PATH, area_options, robot_options, rule_options, wrong_use
 from trihex.cli.outputs import check_outputs, tell_written
 from trihex.cli.progress import bar
 from trihex.cli.types import Names, Planners

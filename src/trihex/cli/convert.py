@@ -3,24 +3,17 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from trihex.cli.options import (
-    PATH,
-    RULES,
-    area_options,
-    of_waypoints,
-    read_described,
-    read_judged,
-    read_played,
-    rule_options,
-    waypoint_options,
-    wrong_use,
-)
+from trihex.cli.described import read_described, read_judged, read_played
+from trihex.cli.options import PATH, RULES, area_options, of_waypoints, rule_options, waypoint_options, wrong_use
 from trihex.cli.outputs import check_outputs, tell_written
 from trihex.cli.progress import bar
+
+if TYPE_CHECKING:
+    from trihex.plans import Motion
 
 
 @click.command("convert")
@@ -45,6 +38,8 @@ def command(source: Path, target: Path, area: Path | None, waypoints: bool, **op
 
     way = of_waypoints(options)
     form = FORMATS[format_of(read_bytes(source), source)]
+    if form.holds != "plan" and way:
+        raise wrong_use(f"{_first_of(way)} is for plans; {source} holds none")
     if form.holds == "starts":
         _convert_starts(source, target, area, options)
         return
@@ -83,6 +78,7 @@ def _convert_plan(
     suffix = suffix_of(target, suffixes, kind)
     if suffix in DEPENDENCY_SUFFIXES or suffix in LAYER_SUFFIXES:
         judged = read_judged(source, area, options, add_area="--area AREA", pace=way)
+        _check_pace(judged, area, target, way, options, has_speed=suffix in DEPENDENCY_SUFFIXES)
         if suffix in LAYER_SUFFIXES:
             write_tiled(judged, target, like=area)
         else:
@@ -92,9 +88,35 @@ def _convert_plan(
         if waypoints or suffix not in PLAN_SUFFIXES:
             write_waypoints(plan, target, **way)
         else:
+            _check_pace(plan, area, target, way, options)
             with bar("writing", "parts") as progress:
                 write_plan(plan, target, progress=progress)
     tell_written(target)
+
+
+def _check_pace(
+    motion: Motion,
+    area: Path | None,
+    target: Path,
+    way: dict[str, Any],
+    options: dict[str, Any],
+    *,
+    has_speed: bool = False,
+) -> None:
+    """Raise if something is told of waypoints where none are written, and no flow a second was read by it either."""
+    told = (options["destination_capacity"], *(flow for _, flow in options["capacity"]))
+    has_flows = any(str(flow).strip().endswith("/s") for flow in told)
+    if area is not None:  # its doors and rules may have been told in robots a second
+        has_flows = has_flows or bool(motion.scenario.doors) or area.suffix.lower() == ".toml"
+    used = {"speed", "turn_time"} if has_flows else {"speed"} if has_speed else set()
+    if idle := {name: value for name, value in way.items() if name not in used}:
+        hint = " without --waypoints" if target.suffix.lower() == ".csv" else ""
+        raise wrong_use(f"{_first_of(idle)} is for waypoints; {target} holds none{hint}")
+
+
+def _first_of(way: dict[str, Any]) -> str:
+    """Return the option of waypoints that is given first."""
+    return f"--{next(iter(way)).replace('_', '-')}"
 
 
 def _convert_starts(source: Path, target: Path, area: Path | None, options: dict[str, Any]) -> None:

@@ -7,7 +7,8 @@ from typing import Any, NamedTuple
 
 import click
 
-from trihex.cli.options import PATH, area_options, complete, gathered, read_described, rule_options, wrong_use
+from trihex.cli.described import complete, read_described
+from trihex.cli.options import PATH, area_options, gathered, rule_options, wrong_use
 from trihex.cli.outputs import check_outputs, tell_written
 from trihex.cli.progress import bar
 from trihex.cli.tiles import Tiling, make_tiles

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from trihex.cli.described import read_described
 from trihex.cli.group import DONE, NO
-from trihex.cli.options import PATH, area_options, destination_option, read_described, wrong_use
+from trihex.cli.options import PATH, area_options, destination_option, wrong_use
 from trihex.cli.outputs import check_outputs, tell_written
 from trihex.cli.progress import bar
 from trihex.cli.types import Name

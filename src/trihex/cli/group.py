@@ -106,6 +106,11 @@ class Commands(click.Group):
             return super().invoke(ctx)
         except BrokenPipeError:
             raise _ReaderGoneError from None
+        except click.UsageError as error:
+            name = ctx.invoked_subcommand
+            if error.ctx is None and name:  # click's parser does not say of which command an option lacks its value
+                error.ctx = click.Context(self.get_command(ctx, name) or self, parent=ctx, info_name=name)
+            raise
 
 
 def _tell(lines: list[str]) -> None:

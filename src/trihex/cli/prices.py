@@ -11,11 +11,13 @@ from typing import Any
 
 import click
 
+from trihex.cli.described import complete, read_described
 from trihex.cli.group import DONE, INTERRUPTED, NO
-from trihex.cli.options import PATH, area_options, complete, read_described, robot_options, rule_options
+from trihex.cli.options import PATH, area_options, robot_options, rule_options
 from trihex.cli.outputs import check_outputs, tell_written
 from trihex.cli.progress import bar
 from trihex.cli.types import Metres, Name, Seconds
+from trihex.record import counted
 
 _MOST_LINES = 5  # of walls and chokes that are named
 
@@ -115,25 +117,59 @@ def _stopping(limit_seconds: float | None) -> Iterator[_Stop]:
 
 def price_lines(prices: Any, speed: float = 1.0) -> list[str]:
     """Return prices in a few lines: how many are something, and the greatest of them."""
-    plan, area = prices.plan, prices.plan.scenario.area
-    lines = [f"{area.name}: {plan.scenario.robot_count} robots, total time {plan.total_time}, which is the least"]
-    for kind, verb, what in (("barrier", "save", "to open"), ("choke", "cost", "to close")):
-        rows = (prices.kind == kind).nonzero()[0]
-        if not rows.size:
-            continue
-        dear = rows[prices.price[rows] > 0]
-        other, unknown = (
-            int((prices.robots[rows] != 0).sum()),
-            int((~prices.proven[rows] & (prices.price[rows] == 0)).sum()),
-        )
-        told = [f"{kind}s: {dear.size} {verb} time {what}, {rows.size - dear.size - other - unknown} {verb} nothing"]
-        told += [f"{other} change who can arrive"] if other else []
-        lines.append(", ".join([*told, *([f"{unknown} not known"] if unknown else [])]))
-        for row in sorted(dear, key=lambda row: (-prices.price[row], prices.cell[row]))[:_MOST_LINES]:
-            x, y = area.cell_to_xy(int(prices.cell[row]))
-            least = "" if prices.proven[row] else "at least "
-            lines.append(f"  {what} ({x}, {y}) {verb}s {least}{prices.told(int(prices.price[row]), speed)}")
-    return lines + _door_lines(prices, speed)
+    plan = prices.plan
+    total = f"{plan.total_time} units ({plan.scenario.waiting_cost} for a step of waiting)"
+    if prices.seconds_per_unit(speed) is not None:
+        total = prices.told(int(plan.total_time), speed)
+    robots = counted(plan.scenario.robot_count, "robot")
+    lines = [f"{plan.scenario.area.name}: {robots}, total time {total}, which is the least"]
+    return lines + _wall_lines(prices, speed) + _choke_lines(prices, speed) + _door_lines(prices, speed)
+
+
+def _wall_lines(prices: Any, speed: float) -> list[str]:
+    """Return what is known of barriers."""
+    return _lines_of_kind(
+        prices, "barrier", "barriers", ("save time to open", "save nothing"), "let more robots arrive"
+    ) + _greatest(prices, "barrier", "to open", "saves", "lets {} arrive", "more robot", speed)
+
+
+def _choke_lines(prices: Any, speed: float) -> list[str]:
+    """Return what is known of chokes."""
+    return _lines_of_kind(
+        prices, "choke", "chokes", ("cost time to close", "cost nothing"), "cut robots off"
+    ) + _greatest(prices, "choke", "to close", "costs", "cuts {} off", "robot", speed)
+
+
+def _lines_of_kind(prices: Any, kind: str, name: str, verbs: tuple[str, str], change: str) -> list[str]:
+    """Return how many rows of a kind have a price, have none, or change who can arrive; no line if there are none."""
+    rows = prices.kind == kind
+    if not rows.any():
+        return []
+    dear, other = int((rows & (prices.price > 0)).sum()), int((rows & (prices.robots != 0)).sum())
+    unknown = int((rows & ~prices.proven & (prices.price == 0)).sum())
+    told = [f"{name}: {dear} {verbs[0]}", f"{int(rows.sum()) - dear - other - unknown} {verbs[1]}"]
+    told += [f"{other} {change}"] if other else []
+    return [", ".join([*told, *([f"{unknown} not known"] if unknown else [])])]
+
+
+def _greatest(prices: Any, kind: str, what: str, verb: str, change: str, whom: str, speed: float) -> list[str]:
+    """Return the rows that change most, first those that change who can arrive."""
+    rows = ((prices.kind == kind) & ((prices.price > 0) | (prices.robots != 0))).nonzero()[0]
+    lines = []
+    for row in sorted(rows, key=lambda i: (-abs(prices.robots[i]), -prices.price[i], prices.cell[i]))[:_MOST_LINES]:
+        x, y = prices.plan.scenario.area.cell_to_xy(int(prices.cell[row]))
+        robots, least = int(prices.robots[row]), "" if prices.proven[row] else "at least "
+        told = change.format(counted(abs(robots), whom)) if robots else f"{verb} {least}{_told(prices, row, speed)}"
+        if robots < 0 and prices.cell[row] in prices.plan.scenario.robots:
+            told += ", one of which starts there" if robots < -1 else ", which starts there"
+        lines.append(f"  {what} ({x}, {y}) {told}")
+    return lines
+
+
+def _told(prices: Any, row: int, speed: float) -> str:
+    """Return a price in words, and beside the total time of all robots."""
+    price, total = int(prices.price[row]), int(prices.plan.total_time)
+    return f"{prices.told(price, speed)}{f' ({100 * price / total:.3g} %)' if total else ''}"
 
 
 def _door_lines(prices: Any, speed: float) -> list[str]:
@@ -141,8 +177,8 @@ def _door_lines(prices: Any, speed: float) -> list[str]:
     rows = (prices.kind == "door").nonzero()[0]
     if not rows.size:
         return []
+    most = prices.told(int(prices.most[rows[0]]), speed)
     if prices.best_door is None:
-        return ["best next door: not known"]
-    told = prices.told(int(prices.price[rows[0]]), speed)
-    more = "" if prices.proven[rows[0]] else "; a better one is not ruled out"
-    return [f"best next door: {prices.best_door} saves {told}{more}"]
+        return [f"best next door: not known; none saves more than {most}"]
+    more = "" if prices.proven[rows[0]] else f"; a better one is not ruled out, but none saves more than {most}"
+    return [f"best next door: {prices.best_door} saves {_told(prices, rows[0], speed)}{more}"]

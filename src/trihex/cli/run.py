@@ -7,15 +7,14 @@ from typing import Any, NamedTuple
 
 import click
 
+from trihex.cli.described import complete, read_described
 from trihex.cli.group import DONE, NO
 from trihex.cli.maps import Maps, check_maps, map_options, write_maps
 from trihex.cli.options import (
     PATH,
     area_options,
-    complete,
     gathered,
     of_waypoints,
-    read_described,
     robot_options,
     rule_options,
     waypoint_options,

@@ -7,9 +7,10 @@ from typing import Any
 
 import click
 
+from trihex.cli.described import complete, read_described
 from trihex.cli.group import DONE, NO
 from trihex.cli.maps import CHART_SUFFIXES
-from trihex.cli.options import PATH, area_options, complete, read_described, rule_options
+from trihex.cli.options import PATH, area_options, rule_options
 from trihex.cli.outputs import check_outputs, tell_written, write_text
 from trihex.cli.types import Metres, Positive
 

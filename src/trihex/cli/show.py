@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from trihex.cli.options import PATH, area_options, read_described, wrong_use
+from trihex.cli.described import read_described
+from trihex.cli.options import PATH, area_options, wrong_use
 from trihex.cli.types import Whole
 
 if TYPE_CHECKING:

@@ -7,7 +7,8 @@ from typing import Any
 
 import click
 
-from trihex.cli.options import PATH, area_options, read_described, read_played, robot_options, rule_options, wrong_use
+from trihex.cli.described import read_described, read_played
+from trihex.cli.options import PATH, area_options, robot_options, rule_options, wrong_use
 from trihex.cli.types import Names, Whole
 
 

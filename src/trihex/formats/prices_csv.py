@@ -12,11 +12,11 @@ PRICES_SUFFIXES = (".csv",)
 
 
 def write_prices(prices: Prices, path: str | os.PathLike[str], *, speed: float = 1.0) -> None:
-    """Write prices with the header ``x,y,kind,price,robots,proven``.
+    """Write prices with the header ``x,y,kind,price,robots,proven,most``.
 
     In an area in metres where all steps cost the same with ``seconds`` after the price, all robots together. A price
-    that is not proven is at least that; where other robots can arrive than now there is none, and `robots` says how
-    many more, or less.
+    that is not proven is at least that, and at most ``most``, where that is known; where other robots can arrive than
+    now there is none, and ``robots`` says how many more, or less.
 
     Parameters
     ----------
@@ -32,7 +32,7 @@ def write_prices(prices: Prices, path: str | os.PathLike[str], *, speed: float =
     """
     check_type("prices", prices, Prices)
     rows = prices.rows(speed)
-    names = list(rows[0]) if rows else ["x", "y", "kind", "price", "robots", "proven"]
+    names = list(rows[0]) if rows else ["x", "y", "kind", "price", "robots", "proven", "most"]
     with new_file(path) as part, open(part, "w", newline="", encoding="utf-8") as file:
         file.write(",".join(names) + "\n")
         for row in rows:

@@ -13,7 +13,7 @@ from functools import cached_property
 from importlib import import_module
 from typing import Any, Literal
 
-from trihex.files import MAX_BYTES, suffix_of
+from trihex.files import MAX_BYTES, ORDER_SUFFIXES, suffix_of
 from trihex.formats.text import check_text
 
 PLAN_HEADER = "robot,step,x,y,action,time"
@@ -176,8 +176,8 @@ WRITERS = {
         ".tmj": "tiled_layers.write_tiled",
     },
     "dependencies": {
-        ".dependencies.json": "orders.dependencies.write_dependencies_json",
-        ".vda5050.json": "orders.vda5050.write_vda5050",
+        ORDER_SUFFIXES[0]: "orders.dependencies.write_dependencies_json",
+        ORDER_SUFFIXES[1]: "orders.vda5050.write_vda5050",
     },
 }
 

@@ -18,9 +18,9 @@ from trihex.plans import Plan
 _BUDGET = 500_000
 # Length of the stacks at first.
 _STACK = 1 << 16
-# Bytes for each node of each step: flow with early labels, late labels, dues; what is raised, and what it was; words of
-# the variation under way.
-_BYTES_PER_NODE = 32
+# Bytes for each node of each step: flow with early labels, late labels, dues; where nobody is to be sought, twice; what
+# is raised, and what it was; words of the variation under way.
+_BYTES_PER_NODE = 36
 
 
 class LaidPlan:
@@ -43,7 +43,9 @@ class LaidPlan:
     words : ndarray of uint32
         Flow of all nodes of all steps, and early labels.
     due, late : ndarray of int32
-        When the robot arrives that passes each node, and late labels.
+        When the robot arrives that passes each node, or never, and late labels.
+    dead_early, dead_late : ndarray of int32
+        From which slots on no search is to come to each node: see `trihex.optimum.kernels.variation`.
     """
 
     def __init__(self, plan: Plan, n_scheme: NScheme, memory_limit: int) -> None:
@@ -65,6 +67,7 @@ class LaidPlan:
         self.due = self._dues()
         self._label_early()
         self.late = self._label_late()
+        self.dead_early, self.dead_late = self._deaths()
 
     def _lay(self, plan: Plan, robots: NDArray[np.int64]) -> NDArray[np.uint32]:
         from trihex.kernels.signatures import given
@@ -97,9 +100,23 @@ class LaidPlan:
     def _dues(self) -> NDArray[np.int32]:
         from trihex.optimum.kernels.variation import write_dues
 
-        due = np.zeros(self.words.size, dtype=np.int32)
+        due = np.empty(self.words.size, dtype=np.int32)
         write_dues(self.graph.for_kernels, self.start, self.words, due)
         return due
+
+    def _deaths(self) -> NDArray[np.int32]:
+        from trihex.optimum.kernels.variation import write_deaths
+
+        deaths = np.empty((2, self.words.size), dtype=np.int32)
+        write_deaths(self.graph.for_kernels, self.graph.is_barrier, self.words, self.late, *deaths)
+        return deaths
+
+    @property
+    def is_best(self) -> bool:
+        """Whether no robot could arrive sooner."""
+        from trihex.optimum.kernels.variation import is_best
+
+        return bool(is_best(self.words, self.late, self.last))
 
     def _label_early(self) -> None:
         from trihex.kernels.signatures import given

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -57,14 +57,14 @@ class Variations:
         check_equal_steps(plan.scenario)
         n_scheme = n_scheme if n_scheme is not None else make_n_scheme(plan.scenario)
         self._laid = laid = LaidPlan(plan, n_scheme, limit_or_default(memory_limit))
-        self._graph = graph = laid.graph
+        self._graph = laid.graph
         self._steps = int(laid.arrivals.sum())
         self._words = np.empty(laid.words.size, dtype=np.uint32)
         self._log = np.empty((_LOG, LOG_COLUMNS), dtype=np.uint32)
-        self._optimum = given(Optimum, graph.is_barrier, laid.words, laid.due, laid.late)
+        self._optimum = given(Optimum, laid.words, laid.due, laid.dead_early, laid.dead_late)
         self._opened, self._doors = self._make_openings(), self._make_doors(n_scheme)
-        least = self._varied(-1, 1)
-        if least < self._steps:
+        if not laid.is_best:
+            least = self._varied(-1, 1)
             raise PlanError(f"prices need the best plan: its robots take {self._steps} steps together, {least} will do")
 
     @property
@@ -88,56 +88,66 @@ class Variations:
         """What a step costs."""
         return int(self._graph.scenario.waiting_cost)
 
-    def robots_if_changed(self, cell: int) -> int:
-        """Return how many robots that have to go could arrive if a cell were opened or closed."""
+    def robots_if_opened(self, cells: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Return how many robots that have to go could arrive if a barrier were opened, for each of them."""
+        from trihex.optimum.kernels.variation import count_let_in
+
+        graph = self._graph
+        scratch, let_in = np.empty((3, graph.node_count), dtype=np.int64), np.empty(cells.size, dtype=np.int64)
+        nodes = read_only(graph.node_of_cell[cells])
+        count_let_in(graph.for_kernels, graph.is_barrier, nodes, self._starts(), *scratch, let_in)
+        return let_in + self.robot_count
+
+    def robots_if_closed(self, cell: int) -> int:
+        """Return how many robots that have to go could arrive if a free cell were closed."""
         from trihex.optimum.kernels.variation import count_reached
 
-        graph, scenario = self._graph, self._graph.scenario
-        start = graph.node_of_cell[scenario.robots]
-        start = start[start < graph.first_goal]
+        graph = self._graph
         queue = np.empty(2 * graph.node_count, dtype=np.int64)
         node = int(graph.node_of_cell[cell])
-        return int(count_reached(graph.for_kernels, graph.is_barrier, node, start, queue))
+        return int(count_reached(graph.for_kernels, graph.is_barrier, node, self._starts(), queue))
 
-    def saved_bounds(
-        self, cells: NDArray[np.int64], tell: Callable[[int], None] | None = None
-    ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        """Return how many steps opening each barrier saves at least and at most; nearly all save nothing.
+    def _starts(self) -> NDArray[np.int64]:
+        """Return the nodes of all robots that have to go, whether they can or not."""
+        start = self._graph.node_of_cell[self._graph.scenario.robots]
+        return read_only(start[start < self._graph.first_goal])
+
+    def openings(self, cells: NDArray[np.int64]) -> Iterator[tuple[int, int, int]]:
+        """Yield the place of each barrier that it helps to open, and how many steps that saves at least and at most.
+
+        All others save nothing. To ask `saved_if_open` before the next is quicker than to ask later.
 
         Parameters
         ----------
         cells : ndarray of int64
-        tell : callable, optional
-            Called with the number of cells looked at.
         """
-        from trihex.optimum.kernels.opening import count_steps_gained
+        from trihex.optimum.kernels.opening import bound_steps_gained
 
-        least = np.zeros(cells.size, dtype=np.int64)
-        place = self._next_opening(cells, 0, tell)
+        nodes = read_only(self._graph.node_of_cell[cells])
+        ways, bounds = np.empty(self._laid.last + 1, dtype=np.int32), np.empty(2, dtype=np.int64)
+        place = self._next_opening(nodes, 0)
         while place is not None:
-            least[place] = count_steps_gained(self._graph.for_kernels, self._opened, self._gained)
-            place = self._next_opening(cells, place + 1, tell)
-        return least, np.where(least > 0, self._steps, 0)
+            bound_steps_gained(self._graph.for_kernels, self._opened, self._doors.arrived, ways, bounds)
+            yield place, int(bounds[0]), int(bounds[1])
+            place = self._next_opening(nodes, place + 1)
 
     def saved_if_open(self, cell: int) -> int:
         """Return how many steps opening a barrier saves."""
         from trihex.optimum.kernels import opening as kernels
 
-        if self._next_opening(np.array([cell]), 0) is None:
+        node, state = int(self._graph.node_of_cell[cell]), self._opened.state
+        if self._open != node and self._next_opening(read_only(np.array([node])), 0) is None:
             return 0
-        state = self._opened.state
-        node, first, end = int(self._graph.node_of_cell[cell]), int(state[kernels.FIRST]), int(state[kernels.END])
-        steps = self._varied(node, first, end)
-        kernels.restore_labels(self._opened)
-        return self._steps - steps
+        return self._steps - self._varied(node, int(state[kernels.FIRST]), int(state[kernels.END]))
 
     def lost_if_closed(self, cell: int) -> int:
         """Return how many steps more robots need if a free cell is closed; all must still be able to arrive."""
+        from trihex.optimum.kernels.variation import NEVER
+
         laid, size, node = self._laid, self._graph.node_count, int(self._graph.node_of_cell[cell])
-        due = laid.due[node::size]
-        if not due.any():
+        first = int(laid.due[node::size].min())
+        if first == NEVER:  # nobody passes
             return 0
-        first = int(due[due > 0].min())
         layers = laid.last + 1 + max(8, laid.last // 8)
         while True:
             self._words = np.empty(layers * size, dtype=np.uint32)
@@ -147,26 +157,19 @@ class Variations:
                 return steps - self._steps
             layers *= 2
 
-    def most_saved_by_doors(
-        self, cells: NDArray[np.int64], tell: Callable[[int], None] | None = None
-    ) -> NDArray[np.int64]:
-        """Return how many steps are saved at most if each barrier becomes a destination; `tell`: see `saved_bounds`."""
-        from trihex.optimum.kernels.doors import bound_doors
+    def most_saved_by_door(self, cells: NDArray[np.int64]) -> int:
+        """Return how many steps are saved at most if one of the barriers becomes a destination, whichever it is."""
+        from trihex.optimum.kernels.doors import bound_door
 
-        saved = np.zeros(cells.size, dtype=np.int64)
-        search = self._doors._replace(node=read_only(self._graph.node_of_cell[cells]))
-        share = max(1, _BUDGET * 4 // self._graph.node_count)
-        for first in range(0, cells.size, share):
-            bound_doors(self._graph.for_kernels, search, saved, first, min(first + share, cells.size))
-            if tell:
-                tell(min(first + share, cells.size))
-        return saved
+        return int(bound_door(self._graph.for_kernels, self._doors, read_only(self._graph.node_of_cell[cells])))
 
     def saved_by_door(self, cell: int) -> int:
         """Return how many steps are saved if a barrier becomes a destination."""
         from trihex.optimum.kernels import doors as kernels
+        from trihex.optimum.kernels.opening import restore_labels
 
-        graph = self._graph
+        graph, self._open = self._graph, -1
+        restore_labels(self._opened)
         graph.set_door(int(graph.node_of_cell[cell]))
         found = np.zeros(2, dtype=np.int64)
         kernels.find_door_steps(graph.for_kernels, self._doors, self._laid.late, graph.door, found)
@@ -180,7 +183,7 @@ class Variations:
         from trihex.optimum.kernels import opening as kernels
 
         laid = self._laid
-        self._gained = np.empty(laid.last + 1, dtype=bool)
+        self._open = -1  # node whose late labels are raised
         return given(
             kernels.Openings,
             node=np.empty(0, dtype=np.int64),
@@ -189,7 +192,7 @@ class Variations:
             last=laid.last,
             late=laid.late,
             early=np.zeros(laid.last + 1, dtype=np.int32),
-            raised=np.empty(laid.words.size, dtype=np.int64),
+            raised=np.empty(laid.words.size, dtype=np.uint32),
             before=np.empty(laid.words.size, dtype=np.int32),
             state=np.zeros(kernels.STATE_SIZE, dtype=np.int64),
         )
@@ -203,7 +206,6 @@ class Variations:
         arrived = np.searchsorted(laid.arrivals, np.arange(laid.last + 1), side="right")
         return given(
             DoorSearch,
-            node=np.empty(0, dtype=np.int64),
             barrier=graph.is_barrier,
             start=laid.start,
             steps=distance.astype(np.int64) // scenario.waiting_cost,
@@ -215,21 +217,18 @@ class Variations:
             near_door=np.empty(laid.last + 1, dtype=np.int64),
         )
 
-    def _next_opening(
-        self, cells: NDArray[np.int64], place: int, tell: Callable[[int], None] | None = None
-    ) -> int | None:
-        """Return the next place among the cells, from one on, of one that saves steps; None if there is none."""
+    def _next_opening(self, nodes: NDArray[np.int64], place: int) -> int | None:
+        """Return the next place among barriers, from one on, of one that saves steps; None if there is none."""
         from trihex.optimum.kernels import opening as kernels
 
-        openings = self._opened._replace(node=read_only(self._graph.node_of_cell[cells]))
-        self._opened, state = openings, openings.state
+        openings = self._opened._replace(node=nodes)
+        self._opened, state, self._open = openings, openings.state, -1
         state[kernels.CELL] = place
-        while state[kernels.CELL] < cells.size:
-            found = kernels.find_opening(self._graph.for_kernels, openings, max(1, _ROWS // self._laid.last))
-            if tell:
-                tell(int(state[kernels.CELL]))
-            if found:
-                return int(state[kernels.CELL]) - 1
+        while state[kernels.CELL] < nodes.size:
+            if kernels.find_opening(self._graph.for_kernels, openings, max(1, _ROWS // self._laid.last)):
+                place = int(state[kernels.CELL]) - 1
+                self._open = int(nodes[place])
+                return place
         return None
 
     def _varied(self, opened: int, first: int, end: int | None = None, closed: int | None = None) -> int:
@@ -243,11 +242,17 @@ class Variations:
             Just as many arrive by each step before the first, or from `end` on, as they do.
         """
         from trihex.optimum.kernels import variation as kernels
+        from trihex.optimum.kernels.words import DEAD, LABEL
 
-        laid, graph = self._laid, self._graph
-        kernels.begin_at_step(graph.for_kernels, self._optimum, opened, first, self._words)
+        laid, graph, words = self._laid, self._graph, self._words
+        dead = self._optimum.dead_late if opened >= 0 else self._optimum.dead_early
+        kernels.begin_at_step(self._optimum, dead, first, words)
+        if opened >= 0:
+            kernels.open_node(graph.for_kernels, opened, words)
+            kernels.revive_raised(graph.for_kernels, self._opened, first, words)
         if closed is not None:
-            kernels.close_node(graph.for_kernels, closed, self._words)
+            words[laid.words.size :].reshape(-1, graph.node_count)[:] = graph.is_barrier * np.uint32(DEAD * LABEL)
+            kernels.close_node(graph.for_kernels, closed, words)
         before = int(np.searchsorted(laid.arrivals, first))
         served, total = self._fill(before, int(laid.arrivals[:before].sum()), first, end)
         if served < laid.arrivals.size and end is None:

@@ -14,6 +14,7 @@ from trihex.prices import Prices
 
 _SHADES = 120
 _DOOR: palette.Colour = (160, 0, 160)
+_CHANGES: palette.Colour = (204, 121, 167)
 
 
 def picture_of_prices(
@@ -21,7 +22,8 @@ def picture_of_prices(
 ) -> Picture:
     """Return the picture of prices: barriers as dark as opening them saves, chokes as dark as closing them costs.
 
-    Barriers that save nothing look as ever; the best next door is a disc.
+    Barriers that save nothing look as ever; what would change who can arrive has a colour of its own; the best next
+    door is a disc.
 
     Parameters
     ----------
@@ -49,6 +51,10 @@ def picture_of_prices(
             rows = values > 0
             cells.reshape(-1)[rows] = first + np.rint(values[rows] * ((_SHADES - 1) / most)).astype(np.int64)
             keys.append(Ramp(colours_of(shades), words, "0", f"{most * factor:.6g}"))
+    changes = prices.cell[prices.robots != 0]
+    if changes.size:
+        cells.reshape(-1)[changes] = 2 * _SHADES + 3
+        keys.append(Key("cell", _CHANGES, "changes who can arrive"))
     marks: list[Mark] = list(make.destination_marks(scenario, scale))
     door = np.flatnonzero((prices.kind == "door") & (prices.price > 0))
     if door.size:
@@ -57,8 +63,8 @@ def picture_of_prices(
         told = prices.told(int(prices.price[door[0]]), speed)
         keys.append(Key("disc", _DOOR, f"best next door: saves {told}"))
     keys += [Key("cell", DESTINATION, "destination"), *barrier_keys(area)]
-    colours = np.vstack([*ramps, colour_rows([FREE, BARRIER, DESTINATION])])
-    bold = (*range(2 * _SHADES), 2 * _SHADES + 1, 2 * _SHADES + 2)
+    colours = np.vstack([*ramps, colour_rows([FREE, BARRIER, DESTINATION, _CHANGES])])
+    bold = (*range(2 * _SHADES), 2 * _SHADES + 1, 2 * _SHADES + 2, 2 * _SHADES + 3)
     scene = Scene(area, cells, colours, scale, bold, tuple(marks), tuple(keys))
     more = f", {scenario.robot_count} robots, {unit}" + ("" if prices.is_complete else ", not all proven")
     return titled(scene, title, "Prices", more, legend)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
+from math import ceil
 from typing import Any
 
 from trihex.pictures.palette import INK, Colour
@@ -82,7 +83,9 @@ def arrange(scene: Scene) -> Sheet:
     body_width, body_height = max(1, round(across * scene.scale)), max(1, round(down * scene.scale))
     has_words = bool(scene.title or scene.subtitle or scene.legend)
     margin = MARGIN if has_words else 0
-    width = max(body_width + 2 * margin, LEAST_WIDTH if has_words else 0)
+    # A page is as wide as its widest entry: it cannot be broken, and cells may be a narrow column.
+    widest = ceil(max((_width_of_entry(entry, scene) for entry in scene.legend), default=0.0))
+    width = max(body_width + 2 * margin, LEAST_WIDTH if has_words else 0, widest + 2 * margin)
     words, y = [], float(margin)
     for line in wrap(scene.title, TITLE_SIZE, width - 2 * margin):
         words.append(Words(margin, y + TITLE_ROW / 2, line, TITLE_SIZE))
@@ -123,16 +126,19 @@ def _pixels_of(bar: Bar, scene: Scene) -> int:
     return max(1, round(bar.length * scene.scale))
 
 
+def _width_of_entry(entry: Entry, scene: Scene) -> float:
+    if isinstance(entry, Key):
+        return 20 + width_of(entry.words, TEXT_SIZE)
+    if isinstance(entry, Bar):
+        return _pixels_of(entry, scene) + 8 + width_of(entry.words, TEXT_SIZE)
+    return RAMP_WIDTH + 20 + sum(width_of(text, TEXT_SIZE) for text in (entry.words, entry.low, entry.high))
+
+
 def _places(scene: Scene, left: float, right: float) -> tuple[list[tuple[Entry, float, int]], int]:
     """Return the x and the row of each entry of a legend, and the number of rows."""
     places, x, row = [], left, 0
     for entry in scene.legend:
-        if isinstance(entry, Key):
-            needed = 20 + width_of(entry.words, TEXT_SIZE)
-        elif isinstance(entry, Bar):
-            needed = _pixels_of(entry, scene) + 8 + width_of(entry.words, TEXT_SIZE)
-        else:
-            needed = RAMP_WIDTH + 20 + sum(width_of(text, TEXT_SIZE) for text in (entry.words, entry.low, entry.high))
+        needed = _width_of_entry(entry, scene)
         if x > left and x + needed > right:
             x, row = left, row + 1
         places.append((entry, x, row))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -37,57 +37,63 @@ class AfreshVariations:
         self.robot_count = int(_can_arrive(n_scheme).size)
         self.all_arrive = self.robot_count == plan.scenario.robot_count
 
+    @property
+    def area(self) -> Area:
+        """The area of the plan."""
+        return self._scenario.area
+
     def check(self, plan: Plan) -> None:
         """Raise PlanError unless the plan is the best, and whole."""
         least = self._least(plan.scenario)
         if plan.total_time != least or plan.arrived.sum() < self.robot_count:
             raise PlanError(f"prices need the best plan: its sum of t_r is {plan.total_time}, the least is {least}")
 
-    def robots_if_changed(self, cell: int) -> int:
-        """Return how many robots could arrive if a cell were opened or closed."""
-        scenario = self._changed(cell)
+    def robots_if_opened(self, cells: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Return how many robots could arrive if a barrier were opened, for each of them."""
+        return np.array([self.robots_if_closed(cell) for cell in cells.tolist()], dtype=np.int64)
+
+    def robots_if_closed(self, cell: int) -> int:
+        """Return how many robots could arrive if a cell were closed; of a barrier: opened."""
+        scenario = self._changed(np.array([cell]))
         return int(_can_arrive(make_n_scheme(scenario)).size)
 
-    def saved_bounds(self, cells: NDArray[np.int64], tell: Callable[[int], None]) -> tuple[NDArray[np.int64], ...]:
-        """Return what opening each barrier saves at least and at most: nothing is known of it."""
-        return np.zeros_like(cells), np.full_like(cells, max(1, self._total))
+    def openings(self, cells: NDArray[np.int64]) -> Iterator[tuple[int, int, int]]:
+        """Yield the place of each barrier, and what opening it saves at least and at most: nothing is known of it."""
+        for place in range(cells.size):
+            yield place, 0, max(1, self._total)
 
     def saved_if_open(self, cell: int) -> int:
         """Return what opening a barrier saves."""
-        scenario = self._changed(cell)
+        scenario = self._changed(np.array([cell]))
         if make_lower_bound(make_n_scheme(scenario)).value >= self._total:
             return 0
         return self._total - self._least(scenario)
 
     def lost_if_closed(self, cell: int) -> int:
         """Return what closing a free cell costs."""
-        return self._least(self._changed(cell)) - self._total
+        return self._least(self._changed(np.array([cell]))) - self._total
 
-    def most_saved_by_doors(self, cells: NDArray[np.int64], tell: Callable[[int], None]) -> NDArray[np.int64]:
-        """Return what is saved at most if each barrier becomes a destination."""
-        most = np.zeros_like(cells)
-        for place, cell in enumerate(cells.tolist()):
-            most[place] = self._total - slot_bound(make_n_scheme(self._changed(cell, is_door=True))).value
-            tell(place + 1)
-        return most
+    def most_saved_by_door(self, cells: NDArray[np.int64]) -> int:
+        """Return what is saved at most if one of the barriers becomes a destination, whichever it is."""
+        return self._total - slot_bound(make_n_scheme(self._changed(cells, is_door=True))).value
 
-    def most_saved_by_door(self, cell: int) -> int:
-        """Return what is saved at most if a barrier becomes a destination: much less, after some more work."""
-        return self._total - make_lower_bound(make_n_scheme(self._changed(cell, is_door=True))).value
+    def well_bounded_by_door(self, cell: int) -> int:
+        """Return the same of one barrier: much less, after some more work."""
+        return self._total - make_lower_bound(make_n_scheme(self._changed(np.array([cell]), is_door=True))).value
 
     def saved_by_door(self, cell: int) -> int:
         """Return what is saved if a barrier becomes a destination."""
-        return self._total - self._least(self._changed(cell, is_door=True))
+        return self._total - self._least(self._changed(np.array([cell]), is_door=True))
 
-    def _changed(self, cell: int, *, is_door: bool = False) -> Scenario:
-        """Return the scenario with that cell open if it is a barrier, else closed; who starts in it is left out."""
+    def _changed(self, cells: NDArray[np.int64], *, is_door: bool = False) -> Scenario:
+        """Return the scenario with barriers open or a free cell closed; who starts in it is left out."""
         scenario = self._scenario
         barriers = scenario.area.barriers.copy()
-        barriers.reshape(-1)[cell] = not barriers.reshape(-1)[cell]
+        barriers.reshape(-1)[cells] = ~barriers.reshape(-1)[cells]
         area = Area(scenario.area.tessellation, barriers, frame=scenario.area.frame)
-        destinations = np.append(scenario.destinations, cell) if is_door else scenario.destinations
-        stays = scenario.robots != cell
-        doors = tuple(replace(door, cells=door.cells[door.cells != cell]) for door in scenario.doors)
+        destinations = np.append(scenario.destinations, cells) if is_door else scenario.destinations
+        stays = ~np.isin(scenario.robots, cells)
+        doors = tuple(replace(door, cells=door.cells[~np.isin(door.cells, cells)]) for door in scenario.doors)
         return replace(
             scenario,
             area=area,

@@ -1,10 +1,10 @@
-"""How prices are found: what is bound to be nothing first, then what saves most, the best next door last."""
+"""How prices are found: first those of barriers, then those of chokes, then the best next door."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from heapq import heapify, heappop, heappush
-from typing import Any
+from itertools import chain
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,6 +16,7 @@ from trihex.fields import NScheme, make_n_scheme
 from trihex.optimum import Variations, check_equal_steps
 from trihex.plans import Plan
 from trihex.prices.afresh import AfreshVariations
+from trihex.prices.next_door import NextDoor
 from trihex.prices.prices import KINDS, Prices
 
 
@@ -100,8 +101,8 @@ def make_prices(
     for kind, those, price in steps:
         if kind in kinds:
             price(those)
-    columns = zip(*sorted(work.rows, key=lambda row: (KINDS.index(row[0]), row[1])), strict=True)
-    return Prices(plan, *(columns if work.rows else [()] * 5))
+    columns = zip(*sorted(work.rows, key=lambda row: (KINDS.index(row.kind), row.cell)), strict=True)
+    return Prices(plan, *(columns if work.rows else [()] * len(Row._fields)))
 
 
 def _variations(plan: Plan, n_scheme: NScheme, memory_limit: int | None) -> tuple[Any, AfreshVariations]:
@@ -115,8 +116,19 @@ def _variations(plan: Plan, n_scheme: NScheme, memory_limit: int | None) -> tupl
     return Variations(plan, n_scheme=n_scheme, memory_limit=memory_limit), afresh
 
 
+class Row(NamedTuple):
+    """What `Prices` hold of a cell."""
+
+    kind: str
+    cell: int
+    price: int
+    most: int
+    robots: int
+    proven: bool
+
+
 class _Pricing:
-    """Prices as they are found: rows of kind, cell, price, robots, whether it is proven."""
+    """Prices as they are found."""
 
     def __init__(
         self,
@@ -129,19 +141,23 @@ class _Pricing:
     ) -> None:
         self.variations, self.bounds, self.known = variations, bounds, known
         self.tell, self.stop, self.progress = tell, stop, progress
-        self.rows: list[tuple[str, int, int, int, bool]] = []
+        self.rows: list[Row] = []
         self.done = self.total = 0
 
     def price_barriers(self, cells: NDArray[np.int64]) -> None:
-        """Price what would be open, first what saves most at least."""
+        """Price what would be open; nearly all saves nothing."""
         cells = self._of_the_same_robots("barrier", cells)
-        least, most = self.variations.saved_bounds(cells, self._told)
-        for place in np.lexsort((cells, -most, -least)).tolist():
-            cell, bound = int(cells[place]), int(least[place])
-            if bound == most[place]:
-                self._add("barrier", cell, bound)
+        begun = 0
+        for place, least, most in chain(self.variations.openings(cells), [(cells.size, 0, 0)]):
+            for cell in cells[begun:place].tolist():
+                self._add("barrier", cell, 0)
+            begun = place + 1
+            if begun > cells.size:
+                break
+            if least == most:
+                self._add("barrier", int(cells[place]), least)
             else:
-                self._price("barrier", cell, self.variations.saved_if_open, bound)
+                self._price("barrier", int(cells[place]), self.variations.saved_if_open, least, most)
 
     def price_chokes(self, cells: NDArray[np.int64]) -> None:
         """Price what would be closed."""
@@ -149,52 +165,50 @@ class _Pricing:
             self._price("choke", cell, self.variations.lost_if_closed)
 
     def price_door(self, cells: NDArray[np.int64]) -> None:
-        """Find the barrier that saves most as a destination, in the order of what each saves at most."""
-        others = self.rows
-        self.rows = []
+        """Find the barrier that saves most as a destination."""
         cells = self._of_the_same_robots("door", cells)
-        self.rows = [("door", -1, 0, 0, True)]  # of the best so far
-        most = self.variations.most_saved_by_doors(cells, self._told) * self.variations.unit
-        # Those that may save most come first, with a rough bound, then with a good one, then they are tried.
-        heap = [(-int(most[place]), int(cell), self.variations.is_quick) for place, cell in enumerate(cells.tolist())]
-        heapify(heap)
-        while heap and -heap[0][0] > self.rows[0][2]:
-            bound, cell, is_good = heappop(heap)
-            if not is_good and ("door", cell) not in self.known and not self._is_to_stop():
-                bound = max(bound, -int(self.bounds.most_saved_by_door(cell)))
-                heappush(heap, (bound, cell, True))
-                continue
-            self._price("door", cell, self.variations.saved_by_door)
-            row, best = self.rows.pop(), self.rows[0]
-            if not row[4]:
-                self.rows[0] = (*(best if best[1] >= 0 else row)[:4], False)
-                break
-            self.rows[0] = row if row[2] > best[2] else best
-        self._told(0, self.total)
-        self.rows = others + [row for row in self.rows if row[1] >= 0]
+        search = NextDoor(self.bounds.area, cells, self.variations, self.bounds, self.known)
+        while search.most > search.saved and not (search.needs_work and self._is_to_stop()):
+            search.look(self._price_of_door)
+            self._told(max(self.done, self.total - search.left))
+        proven = search.most == search.saved
+        if search.saved or not proven:
+            self.rows.append(Row("door", search.best_or_next, search.saved, search.most, 0, proven))
+        self._told(self.total)
+
+    def _price_of_door(self, cell: int) -> int:
+        """Return what a door saves, in units of time, if it is not known."""
+        price = self.known.get(("door", cell))
+        if price is None:
+            price = self.variations.saved_by_door(cell) * self.variations.unit
+            if self.tell:
+                self.tell("door", cell, price)
+        return price
 
     def _of_the_same_robots(self, kind: str, cells: NDArray[np.int64]) -> NDArray[np.int64]:
         """Return the cells that change nothing about who can arrive; tell of the others."""
         variations = self.variations
         if kind != "choke" and variations.all_arrive:
             return cells
-        kept = []
-        for cell in cells.tolist():
-            robots = variations.robots_if_changed(cell) - variations.robot_count
-            if robots:
-                self._add(kind, cell, 0, robots)
-            else:
-                kept.append(cell)
-        return np.array(kept, dtype=np.int64)
+        if kind == "choke":
+            robots = np.array([variations.robots_if_closed(cell) for cell in cells.tolist()], dtype=np.int64)
+        else:
+            robots = variations.robots_if_opened(cells)
+        changes = robots != variations.robot_count
+        if kind != "door":
+            for cell, more in zip(cells[changes].tolist(), robots[changes] - variations.robot_count, strict=True):
+                self._add(kind, cell, 0, int(more))
+        kept: NDArray[np.int64] = cells[~changes]
+        return kept
 
-    def _price(self, kind: str, cell: int, find: Callable[[int], int], least: int = 0) -> None:
+    def _price(self, kind: str, cell: int, find: Callable[[int], int], least: int = 0, most: int = -1) -> None:
         """Add the row of a cell that takes some work, unless it is known or the work is to stop."""
         unit = self.variations.unit
         price = self.known.get((kind, cell))
         if price is not None:
             self._add(kind, cell, price // unit)
         elif self._is_to_stop():
-            self.rows.append((kind, cell, least * unit, 0, False))
+            self.rows.append(Row(kind, cell, least * unit, most * unit if most >= 0 else -1, 0, False))
         else:
             price = find(cell)
             if self.tell:
@@ -206,11 +220,12 @@ class _Pricing:
 
     def _add(self, kind: str, cell: int, price: int, robots: int = 0) -> None:
         """Add a row that is proven; `price` is in units of the variations."""
-        self.rows.append((kind, cell, price * self.variations.unit, robots, True))
-        self._told(0, self.done + 1)
+        price *= self.variations.unit
+        self.rows.append(Row(kind, cell, price, -1 if robots else price, robots, True))
+        self._told(self.done + 1)
 
-    def _told(self, looked_at: int, done: int | None = None) -> None:
-        """Tell how many cells are done with; to look at them goes before, and is told of as well."""
-        self.done = self.done if done is None else done
+    def _told(self, done: int) -> None:
+        """Tell how many cells are done with."""
+        self.done = done
         if self.progress:
             self.progress(self.done, self.total)

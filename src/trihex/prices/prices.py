@@ -33,6 +33,9 @@ class Prices(Record):
     cell : ndarray of int64
     price : ndarray of int64
         In units of time, as t_r. Where it is not proven: at least so much. 0 where other robots can arrive than now.
+    most : ndarray of int64
+        What the price is at most, the price itself where that is proven, -1 where nothing is known. Of a door: what any
+        other door saves at most.
     robots : ndarray of int64
         How many robots more can arrive; below 0: how many less. Then there is no price, as the sums of time are those
         of different robots. A cell in which a robot starts cuts off that one at least.
@@ -44,14 +47,16 @@ class Prices(Record):
     kind: NDArray[np.str_]
     cell: NDArray[np.int64]
     price: NDArray[np.int64]
+    most: NDArray[np.int64]
     robots: NDArray[np.int64]
     proven: NDArray[np.bool_]
 
     def __post_init__(self) -> None:
         check_type("plan", self.plan, Plan)
         self._set("kind", read_only(np.asarray(self.kind, dtype="<U7")))
-        for name, dtype in (("cell", np.int64), ("price", np.int64), ("robots", np.int64), ("proven", np.bool_)):
-            self._set(name, read_only(np.asarray(getattr(self, name), dtype=dtype)))
+        for name in ("cell", "price", "most", "robots"):
+            self._set(name, read_only(np.asarray(getattr(self, name), dtype=np.int64)))
+        self._set("proven", read_only(np.asarray(self.proven, dtype=np.bool_)))
 
     @property
     def is_complete(self) -> bool:
@@ -111,7 +116,8 @@ class Prices(Record):
             row = {"x": int(x[i]), "y": int(y[i]), "kind": kind, "price": int(self.price[i]) if is_priced else None}
             if factor is not None:
                 row["seconds"] = round(int(self.price[i]) * factor, 6) if is_priced else None
-            rows.append(row | {"robots": int(self.robots[i]), "proven": bool(self.proven[i])})
+            most = int(self.most[i]) if is_priced and self.most[i] >= 0 else None
+            rows.append(row | {"robots": int(self.robots[i]), "proven": bool(self.proven[i]), "most": most})
         return rows
 
     def in_words(self) -> str:

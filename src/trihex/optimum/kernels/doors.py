@@ -16,7 +16,6 @@ END = 1  # first step after it by which no more do
 class DoorSearch(NamedTuple):
     """What holds for all doors, and scratch."""
 
-    node: IN_I64  # nodes of the barriers that may become doors
     barrier: IN_BOOL  # of each node of a layer
     start: IN_I64  # node where each robot starts
     steps: IN_I64  # steps from there to the nearest destination
@@ -32,14 +31,22 @@ DOOR_SEARCH = declared(DoorSearch)
 
 
 @HELPER
-def _walk_away(door, graph, search):
-    """Find the steps from each node to the door; return how many nodes lie beside it."""
+def _walk_away(doors, graph, search):
+    """Find the steps from each node to the nearest of the doors; return the most nodes that lie beside one of them."""
     away, queue = search.away, search.queue
     for node in range(len(away)):
         away[node] = -1
-    away[door] = 0
-    queue[0] = door
-    head, tail, beside = 0, 1, 0
+    head, tail, most = 0, 0, 0
+    for door in doors:
+        beside, j = 0, 0
+        while graph.into[door, j, OFFSET] != 0:
+            beside += not search.barrier[graph.into[door, j, OTHER]]
+            j += 1
+        if beside > 0:  # most barriers of thick walls lie among barriers alone
+            most = max(most, beside)
+            away[door] = 0
+            queue[tail] = door
+            tail += 1
     while head < tail:
         node = queue[head]
         head += 1
@@ -48,53 +55,38 @@ def _walk_away(door, graph, search):
             other = graph.into[node, j, OTHER]
             if away[other] < 0 and not search.barrier[other]:
                 away[other] = away[node] + 1
-                beside += node == door
                 queue[tail] = other
                 tail += 1
             j += 1
-    return beside
+    return most
 
 
-@HELPER
-def _is_inside(node, graph, search):
-    """Tell whether a barrier lies among barriers alone: most do in thick walls."""
-    j = 0
-    while graph.into[node, j, OFFSET] != 0:
-        if not search.barrier[graph.into[node, j, OTHER]]:
-            return False
-        j += 1
-    return True
-
-
-@kernel(types.void(SLOT_GRAPH, DOOR_SEARCH, OUT_I64, types.int64, types.int64))
-def bound_doors(graph, search, saved, first, end):
-    """Write how many steps each of the doors `first` to `end` - 1 saves at most.
+@kernel(types.int64(SLOT_GRAPH, DOOR_SEARCH, IN_I64))
+def bound_door(graph, search, doors):
+    """Return how many steps one of the doors saves at most, whichever it is.
 
     By each step no more come to the destinations than before, no more to the door than its entries let in of those who
     are near enough, and no more in all than are near enough to either.
     """
     last = len(search.arrived) - 1
-    for k in range(first, end):
-        if _is_inside(search.node[k], graph, search):
-            saved[k] = 0
-            continue
-        beside = _walk_away(search.node[k], graph, search)
-        room = min(beside, search.capacity) if search.capacity else beside
-        for step in range(last + 1):
-            search.near[step] = search.near_door[step] = 0
-        for robot in range(len(search.start)):
-            steps, away = search.steps[robot], search.away[search.start[robot]]
-            if 0 <= away <= last:
-                search.near_door[away] += 1
-                steps = min(steps, away)
-            search.near[steps] += 1
-        near = near_door = through = 0
-        saved[k] = 0
-        for step in range(last + 1):
-            near += search.near[step]
-            near_door += search.near_door[step]
-            through = min(through + room, near_door)
-            saved[k] += min(through, near - search.arrived[step])
+    room = _walk_away(doors, graph, search)
+    if search.capacity:
+        room = min(room, search.capacity)
+    for step in range(last + 1):
+        search.near[step] = search.near_door[step] = 0
+    for robot in range(len(search.start)):
+        steps, away = search.steps[robot], search.away[search.start[robot]]
+        if 0 <= away <= last:
+            search.near_door[away] += 1
+            steps = min(steps, away)
+        search.near[steps] += 1
+    near = near_door = through = saved = 0
+    for step in range(last + 1):
+        near += search.near[step]
+        near_door += search.near_door[step]
+        through = min(through + room, near_door)
+        saved += min(through, near - search.arrived[step])
+    return saved
 
 
 @kernel(types.void(SLOT_GRAPH, DOOR_SEARCH, IN_I32, types.int64, OUT_I64))

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from numba import types
 
-from trihex.kernels.signatures import HELPER, IN_BOOL, IN_I64, OUT_BOOL, OUT_I32, OUT_I64, declared, kernel
+from trihex.kernels.signatures import HELPER, IN_BOOL, IN_I64, OUT_I32, OUT_I64, OUT_U32, declared, kernel
 from trihex.optimum.kernels.flow_byte import arc_in, arc_out, is_start
 from trihex.optimum.kernels.residual import OFFSET, OTHER, PLACE
 from trihex.optimum.kernels.slots import SLOT_GRAPH
@@ -36,7 +36,7 @@ class Openings(NamedTuple):
     last: types.int64  # last step of arrival
     late: OUT_I32  # late labels
     early: OUT_I32  # early label of the cell in each step
-    raised: OUT_I64  # nodes whose late labels were raised
+    raised: OUT_U32  # nodes whose late labels were raised
     before: OUT_I32  # what they were before
     state: OUT_I64  # with the entries above
 
@@ -246,15 +246,26 @@ def find_opening(graph, openings, cells):
     return False
 
 
-@kernel(types.int64(SLOT_GRAPH, OPENINGS, OUT_BOOL))
-def count_steps_gained(graph, openings, gained):
-    """Count the steps by which more arrive if the cell under way is opened."""
-    size, count = len(graph.out), 0
+@kernel(types.void(SLOT_GRAPH, OPENINGS, IN_I64, OUT_I32, OUT_I64))
+def bound_steps_gained(graph, openings, arrived, ways, bounds):
+    """Write how many steps are gained at least and at most if the cell under way is opened; `arrived` after each step.
+
+    By each step in which there is any way one more arrives. No more do than there are ways, one for each step in which
+    somebody is in the cell, nor than robots that are later, nor than before and slots that are open.
+    """
+    size, last = len(graph.out), openings.last
     node = openings.node[openings.state[CELL] - 1]
-    for step in range(openings.last + 1):
-        gained[step] = False
-    for step in range(1, openings.last):
+    for step in range(last + 1):
+        ways[step] = 0
+    for step in range(1, last):
         for by in range(openings.early[step], openings.late[step * size + node]):
-            count += not gained[by]
-            gained[by] = True
-    return count
+            ways[by] += 1
+    room, more = 0, 0
+    for goal in range(len(graph.room)):
+        room += graph.room[goal]
+    bounds[0] = bounds[1] = 0
+    for step in range(1, last + 1):
+        slots = room - (arrived[step] - arrived[step - 1])
+        more = min(ways[step], more + slots, arrived[last] - arrived[step])
+        bounds[0] += ways[step] > 0
+        bounds[1] += more
