@@ -8,7 +8,7 @@ import numpy as np
 import pandas
 import pedpy
 import pytest
-from hypothesis import given, settings, strategies as st
+from hypothesis import example, given, settings, strategies as st
 
 import trihex as th
 from tests.running.random_runs import random_trial
@@ -56,6 +56,7 @@ def folder(tmp_path_factory):
 
 @settings(deadline=None, max_examples=25)
 @given(seed=st.integers(0, 10_000))
+@example(seed=2765)  # nobody is there
 def test_waypoints_and_tables_tell_what_happened(folder, seed):
     run = random_run(seed)
     expected, area = rows_by_hand(run), run.scenario.area
@@ -74,9 +75,8 @@ def test_waypoints_and_tables_tell_what_happened(folder, seed):
     stays = (run.state_of_robot == GOING) | (run.state_of_robot == BROKEN)
     np.testing.assert_array_equal(spent[~stays], run.time_of_robot[~stays])
     th.write_plan(run, folder / "p.parquet")
-    pandas.testing.assert_frame_equal(
-        pandas.read_parquet(folder / "p.parquet").astype({"action": object}), table.astype({"action": object})
-    )
+    same = pandas.read_parquet(folder / "p.parquet").astype({"action": object})
+    pandas.testing.assert_frame_equal(same, table.astype(same.dtypes))  # of a run of nobody text knows no types
 
 
 @pytest.mark.parametrize("seed", range(6))

@@ -87,7 +87,6 @@ from .scenario import (
     CROSSINGS as CROSSINGS,
     FOLLOWINGS as FOLLOWINGS,
     Scenario as Scenario,
-    random_robots as random_robots,
 )
 from .schedule import (
     Schedule as Schedule,
@@ -98,6 +97,9 @@ from .seconds import (
 from .slowness import (
     check_as_fast as check_as_fast,
     slowness_of as slowness_of,
+)
+from .standing import (
+    random_robots as random_robots,
 )
 from .start_times import (
     check_distribution as check_distribution,

@@ -16,10 +16,10 @@ from trihex.areas.clearance import check_cell_size, check_rules, usual_following
 from trihex.areas.door import Door, make_doors
 from trihex.areas.flow import flow_from, flow_in_words
 from trihex.areas.for_each_robot import for_each_robot
-from trihex.areas.nearest import nearest_free_cell
 from trihex.areas.places import cells_from
 from trihex.areas.schedule import Schedule, schedule_of
 from trihex.areas.slowness import check_following, is_slower, make_slowness
+from trihex.areas.standing import MOST, check_distinct, check_free, without_repeats
 from trihex.areas.start_times import MOST_START_TIME
 from trihex.areas.tessellation import CLOCKS
 from trihex.areas.zone import Zone
@@ -29,7 +29,6 @@ from trihex.record import Record, counted, read_only
 CROSSINGS = ("forbid", "allow")
 CORNERS = ("allow", "no-squeeze", "no-cut")
 FOLLOWINGS = ("allow", "forbid")
-_MOST = 2**30  # the largest whole number that a parameter may be: sums of a few fit into int32
 _BLOCK = 1 << 24  # sites a kernel looks at in one call, even; Ctrl-C works in between
 
 
@@ -137,7 +136,7 @@ class Scenario(Record):
             self._set(parameter, read_only(np.array(cells)))
         if self.destinations.size == 0:
             raise ScenarioError("destinations must name at least one cell")
-        self._set("destinations", read_only(_without_repeats(self.destinations)))
+        self._set("destinations", read_only(without_repeats(self.destinations)))
         self._check_distinct()
         start_times = for_each_robot("start_times", self.start_times, self.robot_count, 0, MOST_START_TIME)
         self._set("start_times", read_only(start_times))
@@ -156,15 +155,15 @@ class Scenario(Record):
         self._set("clock", tessellation.clock)
         if self.waiting_cost is None or self.waiting_cost == usual != tessellation.waiting_cost:
             self._set("waiting_cost", tessellation.waiting_cost)
-        check_whole("waiting_cost", self.waiting_cost, 0, _MOST, ScenarioError)
+        check_whole("waiting_cost", self.waiting_cost, 0, MOST, ScenarioError)
         if self.clock == "costs" and self.waiting_cost != 1:
             raise ScenarioError(f"waiting_cost must be 1 where clock is 'costs', not {self.waiting_cost}")
 
     def _check_free(self, cells: NDArray[np.int64], one: str) -> None:
-        _check_free(self.area, cells, one)
+        check_free(self.area, cells, one)
 
     def _check_distinct(self) -> None:
-        _check_distinct(self.area, self.robots)
+        check_distinct(self.area, self.robots)
 
     def in_words(self) -> str:
         """Return the area, how many destinations and robots, and rules that are not those of the paper."""
@@ -321,64 +320,5 @@ class Scenario(Record):
         return replace(self, robots=robots, seed=seed, start_times=(), slowness=())  # type: ignore[arg-type]
 
 
-def random_robots(area: Area, count: int, seed: int = 0, *, avoid: Any = ()) -> NDArray[np.int64]:
-    """Return the cell numbers of `count` robots on distinct free cells, drawn uniformly, in the order drawn.
-
-    Parameters
-    ----------
-    area : Area
-    count : int
-    seed : int
-        The same seed gives the same robots.
-    avoid : sequence of (x, y), or cell numbers
-        Cells to keep free, usually the destinations.
-
-    Raises
-    ------
-    ScenarioError
-        If there are fewer free cells than robots.
-    """
-    check_type("area", area, Area)
-    check_whole("robots", count, 0, _MOST, ScenarioError)
-    check_whole("seed", seed, 0, _MOST, ScenarioError)
-    is_free = ~area.barriers.reshape(-1)
-    is_free[cells_from(area, avoid, "avoid", ScenarioError)] = False
-    free = np.flatnonzero(is_free)
-    if count > free.size:
-        raise ScenarioError(f"robots must be at most the number of free cells, {free.size}, not {count}")
-    return np.random.default_rng(seed).choice(free, size=count, replace=False).astype(np.int64)
-
-
 def _in_words(value: Any) -> str:
     return str(value) if isinstance(value, Fraction) else repr(value)
-
-
-def _check_free(area: Area, cells: NDArray[np.int64], one: str) -> None:
-    stuck = np.flatnonzero(area.is_barrier(cells)) if cells.size else cells
-    if stuck.size:
-        number, where, why = int(stuck[0]), area.place_of_cell(int(cells[stuck[0]])), ""
-        if area.frame is not None:
-            radius = area.frame.robot_radius
-            why = (
-                f": something stands too near for robots of radius {radius:g}" if radius else ": something stands there"
-            )
-        x, y = area.tessellation.centre_of_cell(*area.cell_to_xy(cells[number]))
-        near = nearest_free_cell(area.tessellation, area.barriers, float(x), float(y))
-        hint = "; no cell of the area is free"
-        if near is not None:
-            hint = f"; the nearest free cell is {area.place_of_cell(int(area.xy_to_cell(*near)))}"
-        raise ScenarioError(f"{one} {number} must stand on a free cell; {where} is a barrier{why}{hint}")
-
-
-def _check_distinct(area: Area, robots: NDArray[np.int64]) -> None:
-    order = np.argsort(robots, kind="stable")
-    same = np.flatnonzero(robots[order][1:] == robots[order][:-1])
-    if same.size:
-        one, other = int(order[same[0]]), int(order[same[0] + 1])
-        where = area.name_of_cell(int(robots[one]))
-        raise ScenarioError(f"two robots must not share a cell; robots {one} and {other} both start at {where}")
-
-
-def _without_repeats(cells: NDArray[np.int64]) -> NDArray[np.int64]:
-    _, first = np.unique(cells, return_index=True)
-    return cells[np.sort(first)]

@@ -40,6 +40,9 @@ from .trajectories import (
 from .turning import (
     turning_of_robot as turning_of_robot,
 )
+from .turns import (
+    in_turn as in_turn,
+)
 from .walk import (
     Walk as Walk,
     count_marked_moves as count_marked_moves,

@@ -13,6 +13,7 @@ from trihex.errors import PlanError, check_type
 from trihex.kernels.codes import WAIT
 from trihex.plans.plan import Plan
 from trihex.plans.rows import cells_of_rows, steps_of_actions
+from trihex.plans.turns import in_turn
 from trihex.record import Record, counted, read_only
 
 Ints = NDArray[np.int64]
@@ -193,19 +194,6 @@ def _waypoints_of(plan: Plan) -> _Waypoints:
     return _Waypoints(robot, cell, step, start, begin, middle, end, vertex)
 
 
-def _in_turn(came: Ints, went: Ints, things: Ints, apart: int = 1) -> tuple[NDArray[np.bool_], Ints, Ints]:
-    """Return whether who comes finds that who must go has gone, and the places of both in `came` and `went`.
-
-    Each comes to one of `things` and goes from it, at half ticks; `apart` are how many may be there at a time.
-    """
-    by_came = np.lexsort((went, came, things))
-    by_went = by_came if apart == 1 else np.lexsort((came, went, things))
-    last, first = by_came[apart:], by_went[:-apart]
-    is_same = things[last] == things[first]
-    last, first = last[is_same], first[is_same]
-    return went[first] <= came[last], last, first
-
-
 def _refuse(plan: Plan, points: _Waypoints, one: int, other: int, words: str) -> PlanError:
     both = f"{points.robot[one]} and {points.robot[other]}"
     when = f"{plan.scenario.step_word} {max(points.step[one], points.step[other])}"
@@ -219,7 +207,7 @@ def _visits(plan: Plan, points: _Waypoints, is_inside: NDArray[np.bool_]) -> tup
     came = (points.begin if forbids else points.middle)[at]
     after = np.where(points.is_last[at], 0, at + 1)
     went = np.where(points.is_last[at], _NEVER, (points.end if forbids else points.middle)[after])
-    is_free, last, first = _in_turn(came, went, points.cell[at])
+    is_free, last, first = in_turn(came, went, points.cell[at])
     if not is_free.all():
         wrong = int(np.argmin(is_free))
         one, other = int(at[first[wrong]]), int(at[last[wrong]])
@@ -231,7 +219,7 @@ def _visits(plan: Plan, points: _Waypoints, is_inside: NDArray[np.bool_]) -> tup
 def _passings(plan: Plan, points: _Waypoints) -> tuple[Ints, Ints]:
     """Return moves, and those that passed the same lattice vertex before."""
     at = np.flatnonzero(points.vertex >= 0)
-    is_free, last, first = _in_turn(points.begin[at], points.end[at], points.vertex[at])
+    is_free, last, first = in_turn(points.begin[at], points.end[at], points.vertex[at])
     if not is_free.all():
         wrong = int(np.argmin(is_free))
         raise _refuse(plan, points, int(at[first[wrong]]), int(at[last[wrong]]), "pass one lattice vertex")
@@ -245,7 +233,7 @@ def _entries(plan: Plan, points: _Waypoints, is_inside: NDArray[np.bool_]) -> tu
     if not 0 < capacity < at.size:
         return at[:0], at[:0]
     came = (points.begin if plan.scenario.following == "forbid" else points.middle)[at]
-    is_free, last, first = _in_turn(came, points.end[at], points.cell[at], capacity)
+    is_free, last, first = in_turn(came, points.end[at], points.cell[at], capacity)
     if not is_free.all():
         wrong = int(np.argmin(is_free))
         words = f"are more than the {counted(capacity, 'robot')} that enter a destination at a time"

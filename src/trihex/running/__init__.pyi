@@ -13,9 +13,9 @@ from .events import (
 from .execution import (
     Execution as Execution,
 )
+from .follower import Follower as Follower
 from .orders import Orders as Orders
 from .passing import (
-    Follower as Follower,
     PassingOrder as PassingOrder,
     make_passing_order as make_passing_order,
 )

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
-from heapq import heappop, heappush
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from trihex.areas import check_as_fast
 from trihex.errors import PlanError, check_number, check_type, check_whole
-from trihex.kernels.codes import JUMP, LATE, UNDERWAY, WAIT
-from trihex.plans import Plan
+from trihex.kernels.codes import JUMP, LATE, WAIT
+from trihex.plans import Plan, in_turn
 from trihex.record import Record, read_only
+from trihex.running.follower import Follower
 from trihex.running.run import ARRIVED, GOING, Run
 
 Ints = NDArray[np.int64]
@@ -139,64 +137,6 @@ class PassingOrder(Record):
         )
 
 
-@dataclass(eq=False)
-class Follower:
-    """Who may move in each step, given who is late; robots keep to the order and else move as early as they can."""
-
-    order: PassingOrder
-    _at: Ints = field(init=False)
-    _due: Ints = field(init=False)
-    _tick: int = field(init=False, default=0)
-    _stack: Ints = field(init=False)
-    _precedence: Any = field(init=False)
-
-    def __post_init__(self) -> None:
-        from trihex.kernels.signatures import given
-        from trihex.running.kernels.passing import Precedence
-
-        order = self.order
-        self._at = order.first_move[:-1].copy()
-        self._due, self._stack = np.zeros_like(self._at), np.empty_like(self._at)
-        self._precedence = given(
-            Precedence,
-            end=order.first_move[1:],
-            owner=order.robot_of_move,
-            leaves_before=order.leaves_before,
-            enters_after=order.enters_after,
-            vertex_before=order.vertex_before,
-            entry_before=order.entry_before,
-            lasts=order.duration_of_move,
-            follows=int(order.plan.scenario.following == "allow"),
-        )
-
-    @property
-    def is_going(self) -> NDArray[np.bool_]:
-        """Whether each robot has moves left, or is under way."""
-        return np.asarray((self._at < self.order.first_move[1:]) | (self._due > self._tick))
-
-    @property
-    def is_over(self) -> bool:
-        """Whether all moves are done."""
-        return not self.is_going.any()
-
-    def step(self, late: Iterable[int] = ()) -> NDArray[np.uint8]:
-        """Return the action of each robot in this step, and take it as done; `late` robots cannot begin a move."""
-        from trihex.kernels.signatures import given
-        from trihex.running.kernels.passing import Progress, choose
-
-        is_late, moves = np.zeros(self._at.size, dtype=bool), np.zeros(self._at.size, dtype=bool)
-        is_late[np.fromiter(late, dtype=np.int64)] = True
-        is_late |= self.order.plan.scenario.start_times > self._tick
-        now = given(Progress, tick=self._tick, at=self._at, due=self._due, is_late=is_late)
-        choose(self._precedence, now, self._stack, moves)
-        action = np.where(self._due > self._tick, np.uint8(UNDERWAY), np.uint8(WAIT))
-        action[moves] = self.order.action_of_move[self._at[moves]]
-        self._due[moves] = self._tick + self._precedence.lasts[self._at[moves]]
-        self._at += moves
-        self._tick += 1
-        return action
-
-
 def make_passing_order(plan: Plan) -> PassingOrder:
     """Return the order in which robots pass each cell, lattice vertex and destination in a plan.
 
@@ -225,9 +165,10 @@ def make_passing_order(plan: Plan) -> PassingOrder:
     middle, end = 2 * begin + follows * lasts, 2 * (begin + lasts)
     is_entry = np.isin(there, scenario.area.layout.cell_to_site(scenario.destinations))
     vertex, entry = np.full(begin.size, -1, dtype=np.int64), np.full(begin.size, -1, dtype=np.int64)
-    _chain(np.flatnonzero(passed >= 0), passed, 2 * begin, end, vertex)
+    _take_turns(np.flatnonzero(passed >= 0), passed, (2 * begin, end), 1, "pass one lattice vertex", vertex)
     if capacity:
-        _share(np.flatnonzero(is_entry), there, (middle, end), capacity, entry)
+        words = f"are more than {capacity} to enter a destination"
+        _take_turns(np.flatnonzero(is_entry), there, (middle, end), capacity, words, entry)
     leaves = _leaves_before(plan, first_move, (middle, end - follows * lasts), there, is_entry)
     _check_rings(leaves, middle, lasts)
     return PassingOrder(
@@ -274,26 +215,18 @@ def _moves_of(plan: Plan) -> tuple[Ints, Ints, NDArray[np.int32], NDArray[np.int
     return first_move, moves.begin, moves.there, moves.passed
 
 
-def _chain(moves: Ints, place: NDArray[np.int32], since: Ints, until: Ints, before: Ints) -> None:
-    """Let each of `moves` come after the one before it at its vertex; each is there from `since` on, before `until`."""
-    moves = moves[np.lexsort((since[moves], place[moves]))]
-    early, later = moves[:-1], moves[1:]
-    is_same = place[early] == place[later]
-    early, later = early[is_same], later[is_same]
-    _refuse(since[later][until[early] > since[later]], "pass one lattice vertex")
-    before[later] = early
+def _take_turns(
+    moves: Ints, place: NDArray[np.int32], times: tuple[Ints, Ints], apart: int, words: str, before: Ints
+) -> None:
+    """Let each of `moves` come after the one that must have gone from its place; so many may be there at a time.
 
-
-def _share(moves: Ints, place: NDArray[np.int32], times: tuple[Ints, Ints], capacity: int, before: Ints) -> None:
-    """Let each of `moves` come after the one that had the same of the `capacity` places of its destination before."""
+    `times` tell from which half tick each is there, and before which.
+    """
     since, until = times
-    places: dict[int, list[tuple[int, int, int]]] = {}
-    for number, move in enumerate(moves[np.argsort(since[moves], kind="stable")].tolist()):
-        taken = places.setdefault(int(place[move]), [])
-        if len(taken) == capacity:  # the one that is free first, of several the one that was taken first
-            end, _, before[move] = heappop(taken)
-            _refuse(since[[move]][[end > since[move]]], f"are more than {capacity} to enter a destination")
-        heappush(taken, (int(until[move]), number, move))
+    is_free, later, earlier = in_turn(since[moves], until[moves], place[moves], apart)
+    later, earlier = moves[later], moves[earlier]
+    _refuse(since[later[~is_free]], words)
+    before[later] = earlier
 
 
 def _refuse(half_ticks: Ints, words: str) -> None:
@@ -320,14 +253,11 @@ def _leaves_before(
     robot = np.searchsorted(first_move, by, side="right") - 1
     leaves = np.concatenate([first_move[stays], by + 1])
     leaves[leaves == first_move[np.concatenate([stays, robot]) + 1]] = -1  # who has no move left stays
-    order = np.lexsort((since, site))
-    early, later = order[:-1], order[1:]
-    is_same = site[early] == site[later]
-    early, later = early[is_same], later[is_same]
-    until = np.where(leaves[early] >= 0, until_of[leaves[early]] if moves else 0, np.iinfo(np.int64).max)
-    _refuse(since[later][until > since[later]], "share a cell")
+    until = np.where(leaves >= 0, until_of[leaves] if moves else 0, np.iinfo(np.int64).max)
+    is_free, later, earlier = in_turn(since, until, site)
+    _refuse(since[later[~is_free]], "share a cell")
     before = np.full(moves, -1, dtype=np.int64)
-    before[enters[later]] = leaves[early]
+    before[enters[later]] = leaves[earlier]
     has = np.flatnonzero(before >= 0)
     _refuse(since_of[has[before[before[has]] == has]], "exchange cells")
     return before

@@ -16,7 +16,8 @@ from trihex.errors import ExecutionError, TooLargeError
 from trihex.fields import NScheme
 from trihex.kernels.codes import WAIT
 from trihex.planners import make_plan
-from trihex.running.passing import Follower, make_passing_order
+from trihex.running.follower import Follower
+from trihex.running.passing import make_passing_order
 from trihex.running.stepping import STEPPERS
 
 _MOST_PAUSE = 64

@@ -11,7 +11,7 @@ import tempfile
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path, PurePosixPath
-from time import monotonic, perf_counter
+from time import perf_counter
 from typing import Any
 
 import numpy as np
@@ -19,8 +19,8 @@ from numpy.typing import NDArray
 
 from trihex.areas import GENERATORS, Area, Scenario, random_robots
 from trihex.bounds import distance_bound, make_lower_bound, slot_bound
-from trihex.errors import FormatError, TooLargeError, TrihexError, check_choice, check_type
-from trihex.fields import distance_generations, make_d_scheme
+from trihex.errors import FormatError, TrihexError, check_choice, check_type
+from trihex.fields import make_d_scheme
 from trihex.files import read_bytes
 from trihex.formats import (
     FORMATS,
@@ -40,11 +40,12 @@ from trihex.plans import Plan
 from trihex.running import Run, make_run_report
 from trihex.viewer import requests as ask
 from trihex.viewer.bundle import Bundle, decode, encode
-from trihex.viewer.call import TICK, Call, CancelledError, Send
+from trihex.viewer.call import Call, CancelledError, Send
 from trihex.viewer.compiling import are_compiled, prepare_for, prepare_usual
 from trihex.viewer.document import document_of, ground_of
 from trihex.viewer.exports import export
 from trihex.viewer.folder import Folder, holds_run, references_of
+from trihex.viewer.generations import send_generations
 from trihex.viewer.layers import LAYERS, make_layer, with_layers
 from trihex.viewer.live import Live, replay_of, trial_of
 from trihex.viewer.needs import Record, judging_of, needs_of, needs_of_draw, needs_of_report
@@ -52,8 +53,6 @@ from trihex.viewer.shelf import Shelf
 from trihex.viewer.show import show_plan
 from trihex.viewer.show_run import show_run
 
-# The automaton looks at all neighbours of all cells in every generation.
-MAX_AUTOMATON_CELLS = 2**20
 _PLACE = ("cell_size", "robot_radius", "resolution", "threshold", "invert", "unknown")
 
 _IN_METRES = ("ros", "geojson", "wkt")  # formats that say nothing of cells: the page asks how large they shall be
@@ -207,32 +206,7 @@ class Desk:
         return Bundle({"unreachable": int(n_scheme.unreachable_robots.size)}, arrays)
 
     def _generations(self, request: ask.Generations, call: Call) -> Bundle:
-        """Send the changes of each generation: how many cells change, which, and to what."""
-        scenario = call.scenario(request)
-        if scenario.area.cell_count > MAX_AUTOMATON_CELLS:
-            raise TooLargeError(
-                f"generations are shown one by one in areas of at most {MAX_AUTOMATON_CELLS} cells, not "
-                f"{scenario.area.cell_count}; the N-scheme itself is shown in any"
-            )
-        prepare_for(call, "generations")
-        counts: list[int] = []
-        cells: list[NDArray[np.int32]] = []
-        values: list[NDArray[np.int32]] = []
-        last_sent, before = monotonic(), None
-        number = -1
-        for states in distance_generations(scenario):
-            number += 1
-            call.check()
-            if before is not None:
-                changed = np.flatnonzero(states != before)
-                counts.append(changed.size)
-                cells.append(changed.astype(np.int32))
-                values.append(states.reshape(-1)[changed].astype(np.int32))
-            before = states
-            if monotonic() - last_sent > TICK and counts:
-                call.part({}, _joined(counts, cells, values))
-                counts, cells, values, last_sent = [], [], [], monotonic()
-        return Bundle({"generations": number}, _joined(counts, cells, values))
+        return send_generations(call.scenario(request), call)
 
     def _plan(self, request: ask.MakePlan, call: Call) -> Bundle:
         draft = call.draft(request)
@@ -355,17 +329,6 @@ def _drafted(draft: Draft) -> Bundle:
     header, arrays = document_of(draft)
     ground, more = ground_of(draft)
     return Bundle({"document": header, "planner": draft.planner, "ground": ground}, {**arrays, **more})
-
-
-def _joined(
-    counts: list[int], cells: list[NDArray[np.int32]], values: list[NDArray[np.int32]]
-) -> dict[str, NDArray[Any]]:
-    nothing = np.empty(0, dtype=np.int32)
-    return {
-        "counts": np.array(counts, dtype=np.int32),
-        "cells": np.concatenate([nothing, *cells]),
-        "values": np.concatenate([nothing, *values]),
-    }
 
 
 def _plain_name(name: str) -> str:

@@ -18,8 +18,9 @@ from trihex.planners import PLANNERS
 from trihex.plans import Plan
 from trihex.viewer.bundle import Bundle, decode, encode
 from trihex.viewer.choices import choices
-from trihex.viewer.desk import MAX_AUTOMATON_CELLS, Desk
+from trihex.viewer.desk import Desk
 from trihex.viewer.document import document_of
+from trihex.viewer.generations import MAX_AUTOMATON_CELLS
 from trihex.viewer.layers import layer_choices
 from trihex.viewer.page import page_with, settings_of
 from trihex.viewer.script import module
