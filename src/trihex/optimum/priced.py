@@ -185,7 +185,8 @@ class _PricedWork:
             return ("filed",)
         if state[ARRIVALS] + state[VAIN] + more > search.arrivals.size:
             return ("arrivals", "vain")
-        return ("stack", "seen", "sides")
+        # A path that is laid may list a side for all that its walk has seen.
+        return ("stack", "seen", "sides") if search.sides.size < 2 * search.seen.size + more else ("stack", "seen")
 
     def _open_layers(self, first: int) -> None:
         """Let paths end at the destinations of all layers from the first one on, but for doors that are shut."""
