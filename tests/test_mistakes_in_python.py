@@ -58,7 +58,7 @@ CASES = {
     # options
     "option with a slip": ("th.read_area('house.yaml', cellsize=3)", "option of read_area must be one of tessellation, cell_size, ..., not 'cellsize'; did you mean 'cell_size'?"),
     "option of another planner": ("th.make_plan(scenario, 'greedy', rule='paper')", "planner 'greedy' has no options, so not 'rule'; planner 'fcost' has it"),
-    "rule of a scenario, by the symbol of the paper": ("th.make_plan(scenario, wt=5)", "option of planner 'fcost' must be one of rule, not 'wt'; it is a part of the scenario, Scenario(waiting_cost=...)"),
+    "rule of a scenario, by the symbol of the paper": ("th.make_plan(scenario, wt=5)", "option of planner 'fcost' must be one of rule, rounds, not 'wt'; it is a part of the scenario, Scenario(waiting_cost=...)"),
     "planner with a slip": ("th.make_plan(scenario, 'fcsot')", "planner must be one of greedy, fcost, astar, optimal, not 'fcsot'; did you mean 'fcost'?"),
     "delay in words": ("th.Trial(scenario, delay='10%')", "delay must be a number from 0 to below 1, not '10%'"),
     "events in words": ("th.Trial(scenario, events='events.csv')", "events must be a list of events, such as those of read_events, not 'events.csv'"),

@@ -88,7 +88,7 @@ def test_fcost_plans_unless_another_is_named(folder):
     summary = json.loads(run("plan", "world.txt", "--planner-option", "rule=paper", "--summary", "-").stdout)
     assert (summary["planner"].split()[0], summary["arrived"]) == ("fcost", 3)
     error = run("plan", "world.txt", "--planner-option", "rulle=paper", status=2).stderr
-    assert "option of planner 'fcost' must be one of rule, not 'rulle'; did you mean 'rule'?" in error
+    assert "option of planner 'fcost' must be one of rule, rounds, not 'rulle'; did you mean 'rule'?" in error
 
 
 def test_summary_has_the_documented_keys(folder):
@@ -267,7 +267,7 @@ def test_compare_takes_planners_with_options(folder):
     lines = run("compare", "world.txt", "--planners", "fcost:rule=paper, greedy", "--tessellation", "square").stdout
     assert [line.split()[1] for line in lines.splitlines()[2:]] == ["fcost:rule=paper", "greedy"]
     for wrong, message in (
-        ("fcost:rulle=paper", "--planners: option of planner 'fcost' must be one of rule, not 'rulle'"),
+        ("fcost:rulle=paper", "--planners: option of planner 'fcost' must be one of rule, rounds, not 'rulle'"),
         ("fcots:rule=paper", "--planners must be one of greedy, fcost, astar, optimal, not 'fcots'"),
         ("fcost:rule=papr", "rule must be one of best, paper, queue, aside, lanes, not 'papr'; did you mean 'paper'?"),
     ):

@@ -67,7 +67,7 @@ def test_robots_served_one_after_another_cost_as_little(monkeypatch, budget):
 @pytest.mark.parametrize("planner", ["fcost", "greedy"])
 def test_slots_exchanged_for_earlier_ones_cost_as_little(monkeypatch, planner, budget):
     monkeypatch.setattr(optimal, "make_flow_singly", lambda *arguments, **options: None)
-    monkeypatch.setattr(optimal, "plan_fcost", planner_named(planner))
+    monkeypatch.setattr(optimal, "plan_fcost", lambda n_scheme, **options: planner_named(planner)(n_scheme))
     changes = {"_BUDGET": budget, "_LOG": 16}
     seeds = range(2_000, 2_000 + swept(100, 20))
     found = least_total_times_by(monkeypatch, earliest, "make_earliest_flow", seeds, **changes)

@@ -78,7 +78,7 @@ def test_names_and_options_are_checked():
     scenario = th.Scenario(th.Area("square", [[0, 0]]), [(0, 0)], [(1, 0)])
     with pytest.raises(th.PlanError, match=r"planner must be one of .*, not 'gredy'; did you mean 'greedy'"):
         make_plan(scenario, "gredy")
-    with pytest.raises(th.PlanError, match="option of planner 'fcost' must be one of rule, not 'rules'"):
+    with pytest.raises(th.PlanError, match="option of planner 'fcost' must be one of rule, rounds, not 'rules'"):
         make_plan(scenario, "fcost", rules="paper")
     with pytest.raises(th.PlanError, match="rule must be one of best, paper, queue, aside, lanes, not 'papers'"):
         make_plan(scenario, "fcost", rule="papers")
@@ -87,7 +87,7 @@ def test_names_and_options_are_checked():
     with pytest.raises(th.PlanError, match="n_scheme must be that of the scenario"):
         make_plan(scenario, "greedy", n_scheme=th.make_n_scheme(scenario.with_robots([])))
     assert all(planner_named(name).__doc__ for name in PLANNERS)
-    assert options_of("fcost") == {"rule": "best"}
+    assert options_of("fcost") == {"rule": "best", "rounds": None}
 
 
 def test_what_cannot_be_planned_is_told_before_anything_is_compiled(monkeypatch):

@@ -134,6 +134,9 @@ def test_what_is_known_is_not_found_again_and_what_is_not_done_is_told():
     assert all(np.array_equal(getattr(part, key)[others], getattr(whole, key)[whole.kind != "door"]) for key in keys)
     assert (part.price[others] <= whole.price[whole.kind != "door"]).all()
     assert (part.price[part.kind == "barrier"] > 0).any()
+    bounded = others & (part.most >= 0)
+    assert (part.most[bounded] >= whole.price[whole.kind != "door"][bounded[others]]).all()
+    assert (bounded & ~part.proven).any()
     second = []
     again = th.make_prices(plan, known=first, tell=lambda kind, cell, price: second.append((kind, cell)))
     assert again == whole
@@ -215,3 +218,19 @@ def test_variations_grow_what_they_search_in(monkeypatch):
     monkeypatch.setattr(variations, "_BUDGET", 50)
     assert th.make_prices(plan) == whole
     assert Variations(plan).unit == 10
+
+
+def test_what_an_opened_cell_changed_is_undone_before_a_door_or_another_cell_is_asked_for():
+    asked = 0
+    for seed in range(swept(10, 4)):
+        plan = th.make_plan(crowded_scenario(seed), "optimal")
+        barriers = np.flatnonzero(plan.scenario.area.barriers)
+        barriers = barriers[Variations(plan).robots_if_opened(barriers) == Variations(plan).robot_count]
+        variations = Variations(plan)
+        helpful = [int(barriers[place]) for place, _, _ in Variations(plan).openings(barriers)]
+        for cell, door in zip(helpful[:5], helpful[::-1], strict=False):
+            next(variations.openings(np.array([cell])))
+            assert variations.saved_by_door(door) == Variations(plan).saved_by_door(door)
+            assert variations.saved_if_open(door) == Variations(plan).saved_if_open(door) > 0
+            asked += 1
+    assert asked

@@ -93,7 +93,10 @@ def test_planners_are_told_apart_by_their_options():
 @pytest.mark.parametrize(
     ("planner", "message"),
     [
-        ("fcost:rulle=paper", "option of planner 'fcost' must be one of rule, not 'rulle'; did you mean 'rule'?"),
+        (
+            "fcost:rulle=paper",
+            "option of planner 'fcost' must be one of rule, rounds, not 'rulle'; did you mean 'rule'?",
+        ),
         ("fcost:rule", "planner 'fcost:rule' must be NAME:OPTION=VALUE, not 'rule'"),
         ("fcost:rule=a:rule=b", "planner 'fcost:rule=a:rule=b' must name each option once, not 'rule' twice"),
         ("fcost:", "planner 'fcost:' must be NAME:OPTION=VALUE, not ''"),

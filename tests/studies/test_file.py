@@ -119,7 +119,7 @@ planners = ["fcost:rule=paper", {name = ["fcost:rule=queue", "greedy"]},
     area = {"generator": "random", "size": [4, 4]}
     (row,) = th.run_study([{"area": area, "robots": 1, "planner": "fcost:rule=paper"}])
     assert (row["planner"], row["planner_options"]) == ("fcost", '{"rule":"paper"}')
-    with pytest.raises(th.FormatError, match=r"planners.0: option of planner 'fcost' must be one of rule, not 'rulle'"):
+    with pytest.raises(th.FormatError, match=r"planners.0: option of planner 'fcost' must be one of rule, rounds, not"):
         th.read_study(written(tmp_path, text.replace("rule=paper", "rulle=paper")))
 
 

@@ -35,6 +35,7 @@ KERNELS_OF: dict[str, tuple[str, ...]] = {
     "d_scheme": _DIRECTIONS,
     "greedy": _GREEDY,
     "fcost": _FCOST,
+    "fcost_mending": ("planners.mending",),  # where not all steps cost the same
     "astar": _ASTAR,
     "timely greedy": _TIMELY,
     "timely fcost": (*_TIMELY, *_REPAIR, "planners.lanes", "planners.laying"),

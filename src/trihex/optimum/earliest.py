@@ -134,4 +134,5 @@ def _make_search(network: Network, words: NDArray[np.uint32]) -> Any:
         log=np.empty((_LOG, kernels.LOG_COLUMNS), dtype=np.uint32),
         heads=np.empty(DEAD, dtype=np.int64),
         state=state,
+        most=np.empty(0, dtype=np.int64),
     )

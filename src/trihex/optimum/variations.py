@@ -150,10 +150,10 @@ class Variations:
             return 0
         layers = laid.last + 1 + max(8, laid.last // 8)
         while True:
-            self._words = np.empty(layers * size, dtype=np.uint32)
+            if self._words.size < layers * size:
+                self._words = np.empty(layers * size, dtype=np.uint32)
             steps = self._varied(-1, first, closed=node)
             if steps >= 0:
-                self._words = np.empty(laid.words.size, dtype=np.uint32)
                 return steps - self._steps
             layers *= 2
 
@@ -254,13 +254,18 @@ class Variations:
             words[laid.words.size :].reshape(-1, graph.node_count)[:] = graph.is_barrier * np.uint32(DEAD * LABEL)
             kernels.close_node(graph.for_kernels, closed, words)
         before = int(np.searchsorted(laid.arrivals, first))
-        served, total = self._fill(before, int(laid.arrivals[:before].sum()), first, end)
+        # Where a cell is closed no more arrive by any step than did before, so no slot is sought when they have.
+        most = self._doors.arrived[slice(0 if closed is None else None)]
+        served, total = self._fill(before, int(laid.arrivals[:before].sum()), first, end, most)
         if served < laid.arrivals.size and end is None:
             return -1
         return total + int(np.maximum(laid.arrivals[served:], end or 0).sum())
 
-    def _fill(self, served: int, total: int, first: int, end: int | None) -> tuple[int, int]:
-        """Fill the slots from a step on, with what was served before; return robots served and the sum of steps."""
+    def _fill(self, served: int, total: int, first: int, end: int | None, most: NDArray[np.int64]) -> tuple[int, int]:
+        """Fill the slots from a step on, with what was served before; return robots served and the sum of steps.
+
+        No more than `most` arrive by each step.
+        """
         from trihex.kernels.signatures import given
         from trihex.optimum.kernels import residual, slots as kernels
         from trihex.optimum.kernels.earliest import fill_slots
@@ -273,7 +278,7 @@ class Variations:
         heads = np.empty(DEAD, dtype=np.int64)
         status = None
         while status not in (residual.DONE, residual.LAYERS_FULL):
-            search = given(kernels.SlotSearch, words=self._words, log=self._log, heads=heads, state=state)
+            search = given(kernels.SlotSearch, words=self._words, log=self._log, heads=heads, state=state, most=most)
             status = fill_slots(graph.for_kernels, search, self._laid.arrivals.size, _BUDGET)
             if status == residual.LIST_FULL:
                 self._log = np.concatenate([self._log, np.empty_like(self._log)])

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import numpy as np
 
-from trihex.errors import PlanError, check_choice
+from trihex.areas import Scenario
+from trihex.errors import PlanError, check_choice, check_whole
 from trihex.fields import DScheme, NScheme, make_d_scheme
+from trihex.kernels.codes import NOT_REACHED
 from trihex.planners.catchments import Catchments, exits_of
 from trihex.planners.crowd import count_going, make_crowd
 from trihex.planners.greedy import run_greedy
 from trihex.planners.lanes import Lanes, make_lanes, price_of_waiting
+from trihex.planners.mending import may_mend, mend
 from trihex.planners.recording import Progress, Recording
 from trihex.planners.slots import Slots
 from trihex.planners.timely import simulate
-from trihex.plans import Arrivals, Plan
+from trihex.plans import Arrivals, Plan, make_arrivals
 
 RULES = ("best", "paper", "queue", "aside", "lanes")
 # Robot-steps up to which "best" tries "lanes" as well, and how many cells times destinations there may be for each of
@@ -28,9 +31,14 @@ _LARGE, _ENOUGH = 100_000, 1.08
 # Of so many robots and more each looks for a way better than a free one in every fourth step only: half the time, and
 # totals 0.2 % larger; in small crowds it would be 1 to 2 %.
 _MANY, _PERIOD = 10_000, 4
+# Robots look ahead without being told to in plans of so many actions at most: beyond, plans take a tenth of a millionth
+# of a second for each, and to look ahead takes two to six times that.
+_MOST_ACTIONS = 500_000
 
 
-def plan_fcost(n_scheme: NScheme, *, rule: str = "best", progress: Progress | None = None) -> Plan:
+def plan_fcost(
+    n_scheme: NScheme, *, rule: str = "best", rounds: int | None = None, progress: Progress | None = None
+) -> Plan:
     """Plan by the least Fcost = v + V + w_t * c (section IV of the paper), step by step.
 
     In each step each robot takes the free direction of least Fcost, and waits where the best direction, though taken,
@@ -49,15 +57,59 @@ def plan_fcost(n_scheme: NScheme, *, rule: str = "best", progress: Progress | No
         but that along lanes, as many as there is room for, see `trihex.planners.lanes`. "best": "aside" or greedy
         descent, whichever takes less total time, and "lanes", too, where to look for them takes no longer than to plan;
         with several exits also lanes within the catchment of each, see `trihex.planners.catchments`.
+    rounds : int, optional
+        How often all robots go along their ways and look ahead for cheaper ones, see `trihex.planners.mending`. More
+        rounds, better plans: with 8 it takes about eight times as long. Default: once, under "best", where not all
+        steps cost the same and the plan has half a million of them at most; else never.
     progress : callable, optional
-        Called with (robots arrived, robots that can arrive), of one rule after the other.
+        Called with (robots arrived, robots that can arrive), of one rule or round after the other.
+
+    Raises
+    ------
+    PlanError
+        If robots cannot act by the rule in the scenario, or look ahead in it.
     """
-    return _run(n_scheme, rule, True, progress).make_plan("fcost")
+    _check_rounds(rounds, n_scheme.scenario)
+    plan = _run(n_scheme, rule, True, progress).make_plan("fcost")
+    if rounds is None:
+        rounds = int(_looks_ahead(n_scheme, rule) and plan.actions.size <= _MOST_ACTIONS)
+    return mend(plan, n_scheme, rounds, progress) if rounds else plan
 
 
-def arrivals_fcost(n_scheme: NScheme, *, rule: str = "best", progress: Progress | None = None) -> Arrivals:
-    """Return the arrivals of what `plan_fcost` plans."""
+def arrivals_fcost(
+    n_scheme: NScheme, *, rule: str = "best", rounds: int | None = None, progress: Progress | None = None
+) -> Arrivals:
+    """Return the arrivals of what `plan_fcost` plans; where robots look ahead, all is planned for it."""
+    _check_rounds(rounds, n_scheme.scenario)
+    if rounds or (rounds is None and _looks_ahead(n_scheme, rule)):
+        return make_arrivals(plan_fcost(n_scheme, rule=rule, rounds=rounds, progress=progress))
     return _run(n_scheme, rule, False, progress).make_arrivals("fcost")
+
+
+def has_unequal_steps(scenario: Scenario) -> bool:
+    """Tell whether steps of a scenario cost this or that, so that robots look ahead without being told to."""
+    return may_mend(scenario) and bool((scenario.area.tessellation.cost_of_direction != scenario.waiting_cost).any())
+
+
+def _looks_ahead(n_scheme: NScheme, rule: str) -> bool:
+    """Tell whether robots look ahead, without being told to, unless they turn out to wait for long."""
+    if rule != "best" or not has_unequal_steps(n_scheme.scenario):
+        return False
+    distance = n_scheme.distance_of_cell(n_scheme.scenario.robots)
+    dearest = int(n_scheme.scenario.area.tessellation.cost_of_direction.max())
+    return int(distance[distance != NOT_REACHED].sum()) // dearest <= _MOST_ACTIONS
+
+
+def _check_rounds(rounds: int | None, scenario: Scenario) -> None:
+    """Raise PlanError if rounds are no number, or robots cannot look ahead in a scenario."""
+    if rounds is None:
+        return
+    check_whole("rounds", rounds, 0, None, PlanError)
+    if rounds and not may_mend(scenario):
+        raise PlanError(
+            f"rounds must be 0, not {rounds}, where moves last, nobody follows at once, robots have start times or "
+            "slowness, doors have a flow, or waiting costs more than 2^25: robots cannot look ahead there"
+        )
 
 
 def _run(n_scheme: NScheme, rule: str, keeps_actions: bool, progress: Progress | None) -> Recording:

@@ -118,5 +118,5 @@ def _find_flow(
         return flow
     prepare("optimal_earliest" if network.has_equal_steps else "optimal_crowd")
     if network.has_equal_steps:
-        return make_earliest_flow(network, cells, robots, plan_fcost(n_scheme), **options)
+        return make_earliest_flow(network, cells, robots, plan_fcost(n_scheme, rounds=0), **options)
     return make_flow_at_prices(network, cells, **options)

@@ -58,6 +58,10 @@ def uses_of(name: str, scenario: Scenario) -> list[str]:
     Where time is not in steps alone, robots have start times or doors a flow, others go from tick to tick; what
     `optimal` does where robots crowd depends on whether all steps cost the same.
     """
+    if name == "fcost":
+        from trihex.planners.fcost import has_unequal_steps
+
+        return [use_of(name, scenario.moves_by_steps), *["fcost_mending"] * has_unequal_steps(scenario)]
     if name != "optimal":
         return [use_of(name, scenario.moves_by_steps)]
     if scenario.waiting_cost == 0:

@@ -209,6 +209,9 @@ def _next_slot(graph, search):
     if goal == size:
         _next_step(graph, search)
         return
+    if state[STEP] < len(search.most) and state[SERVED] >= search.most[state[STEP]]:
+        state[GOAL] = size
+        return
     slot = state[STEP] * size + goal
     label = label_of(words[slot])
     if label == DEAD or words[slot] & FLOW >= graph.room[goal - graph.first_goal]:

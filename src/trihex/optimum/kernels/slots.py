@@ -55,6 +55,7 @@ class SlotSearch(NamedTuple):
     log: LOG  # what it has seen, with the columns above
     heads: OUT_I64  # first entry of the list for each number of turns, or `NOBODY`
     state: OUT_I64  # with the entries above
+    most: IN_I64  # no more robots arrive by each step, as far as that is known: of as many steps as it is long
 
 
 SLOT_GRAPH, SLOT_SEARCH = declared(SlotGraph), declared(SlotSearch)
