@@ -127,10 +127,8 @@ def check(area, plan_path, certificate):
     timed = {"clock", "following", "doors", "start_times"} & plan.keys()
     demand(not timed and 0 <= wait <= MOST, f"nobody must wait for a time, nor at more than {MOST}")
     rows = Path(area).read_text().splitlines()
-    is_map = rows[0].startswith("type")  # a header of four lines
-    barriers = np.array(
-        [[letter in ("@OTW" if is_map else "B#") for letter in row] for row in rows[4 * is_map :] if row]
-    )
+    header, walls = (4, "@OTW") if rows[0].startswith("type") else (0, "B#")
+    barriers = np.array([[letter in walls for letter in row] for row in rows[header:] if row])
     demand(np.array_equal(barriers, plan["barriers"]), "the plan must be for this area")
     (target, via), goals = make_moves(plan, shape, cost.size - 1, edges), np.unique(plan["destinations"])
     demand(goals.size and goals.min() >= 0 and (target[-1, goals] == goals).all(), "destinations must be free")
@@ -144,6 +142,8 @@ def check(area, plan_path, certificate):
 
 
 if __name__ == "__main__":
+    if len(sys.argv) != 4:
+        sys.exit("usage: python check_certificate.py AREA PLAN CERTIFICATE")
     try:
         print("accepted:", check(*sys.argv[1:]))
     except Exception as error:  # a file of whatever else proves nothing

@@ -1,6 +1,7 @@
 """Certificates: the checker, which shares no code with trihex, accepts what is proven and nothing else."""
 
 import ast
+import runpy
 from dataclasses import replace
 from pathlib import Path
 
@@ -67,6 +68,13 @@ def is_accepted(*paths):
     except Exception:  # as the script does it: whatever is wrong, nothing is proven
         return False
     return True
+
+
+@pytest.mark.parametrize("arguments", [[], ["area.map", "plan.npz"], ["--help"]])
+def test_the_checker_tells_how_it_is_used(arguments, monkeypatch):
+    monkeypatch.setattr("sys.argv", [check_certificate.__file__, *arguments])
+    with pytest.raises(SystemExit, match=r"^usage: python check_certificate.py AREA PLAN CERTIFICATE$"):
+        runpy.run_path(check_certificate.__file__, run_name="__main__")
 
 
 @pytest.mark.parametrize("share", range(3))

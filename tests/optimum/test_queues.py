@@ -6,7 +6,7 @@ from scipy.optimize import linear_sum_assignment
 
 import trihex as th
 from trihex.optimum import make_network, queues
-from trihex.optimum.queues import price_arrivals, room_of_slots
+from trihex.optimum.queues import room_of_slots, share_arrivals
 
 
 def crowd(seed, capacity):
@@ -25,7 +25,7 @@ def test_prices_prove_the_cheapest_assignment(capacity):
     for seed in range(4):
         network, cells = crowd(seed, capacity)
         room = room_of_slots(network, 200)
-        prices = price_arrivals(network, cells, room)
+        prices, slot = share_arrivals(network, cells, room)
         assert (prices >= 0).all()
         late = np.arange(200) - network.hops[cells][:, None]
         costs = np.where(late >= 0, late, 1_000_000)
@@ -33,14 +33,17 @@ def test_prices_prove_the_cheapest_assignment(capacity):
         robot, entry = linear_sum_assignment(costs[:, slot_of_entry])
         least = costs[robot, slot_of_entry[entry]].sum()
         paid = np.where(room[:, 0] > 0, prices[:, 0], 1_000_000)
+        assert (costs[np.arange(cells.size), slot] + paid[slot] == (costs + paid).min(axis=1)).all(), seed
+        assert (np.bincount(slot, minlength=200) <= room[:, 0]).all(), seed
         assert (costs + paid).min(axis=1).sum() - (prices * room).sum() == least > 0, seed
 
 
 def test_where_it_is_too_much_work_arrivals_cost_nothing(monkeypatch):
     network, cells = crowd(1, 1)
     room = room_of_slots(network, 200)
-    assert price_arrivals(network, cells, room).any()
+    assert share_arrivals(network, cells, room).price.any()
     for most in ("_MOST_NODES", "_MOST_SLOTS"):
         with monkeypatch.context() as patch:
             patch.setattr(queues, most, 1000)
-            assert not price_arrivals(network, cells, room).any()
+            prices, slot = share_arrivals(network, cells, room)
+            assert not prices.any() and (slot < 0).all()

@@ -17,7 +17,6 @@ from trihex.cli.options import PATH, area_options, robot_options, rule_options
 from trihex.cli.outputs import check_outputs, tell_written
 from trihex.cli.progress import bar
 from trihex.cli.types import Metres, Name, Seconds
-from trihex.record import counted
 
 _MOST_LINES = 5  # of walls and chokes that are named
 
@@ -117,6 +116,8 @@ def _stopping(limit_seconds: float | None) -> Iterator[_Stop]:
 
 def price_lines(prices: Any, speed: float = 1.0) -> list[str]:
     """Return prices in a few lines: how many are something, and the greatest of them."""
+    from trihex.record import counted
+
     plan = prices.plan
     total = f"{plan.total_time} units ({plan.scenario.waiting_cost} for a step of waiting)"
     if prices.seconds_per_unit(speed) is not None:
@@ -154,6 +155,8 @@ def _lines_of_kind(prices: Any, kind: str, name: str, verbs: tuple[str, str], ch
 
 def _greatest(prices: Any, kind: str, what: str, verb: str, change: str, whom: str, speed: float) -> list[str]:
     """Return the rows that change most, first those that change who can arrive."""
+    from trihex.record import counted
+
     rows = ((prices.kind == kind) & ((prices.price > 0) | (prices.robots != 0))).nonzero()[0]
     lines = []
     for row in sorted(rows, key=lambda i: (-abs(prices.robots[i]), -prices.price[i], prices.cell[i]))[:_MOST_LINES]:

@@ -40,8 +40,15 @@ KERNELS_OF: dict[str, tuple[str, ...]] = {
     "timely greedy": _TIMELY,
     "timely fcost": (*_TIMELY, *_REPAIR, "planners.lanes", "planners.laying"),
     "optimal": _OPTIMUM,  # and, where robots crowd, one of two more: `trihex.planners.uses_of`
-    "optimal_crowd": (*_OPTIMUM, "optimum.lowering", "optimum.queues", "optimum.serving", "optimum.tolled"),
-    "optimal_earliest": (*_OPTIMUM, *_FCOST, "optimum.earliest", "optimum.laid"),
+    "optimal_crowd": (
+        *_OPTIMUM,
+        "optimum.lowering",
+        "optimum.queueing",
+        "optimum.queues",
+        "optimum.serving",
+        "optimum.tolled",
+    ),
+    "optimal_earliest": (*_OPTIMUM, *_FCOST, "optimum.earliest", "optimum.laid", "optimum.turns"),
     "certificate": (
         *_FIELD,
         "areas.moves",

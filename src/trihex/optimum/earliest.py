@@ -22,6 +22,10 @@ _BYTES_PER_NODE = 5
 _BUDGET = 500_000
 # Length of the log of a search at first.
 _LOG = 1 << 12
+# Labels are found anew when searches have seen so many nodes, and so many times those that got a label last time.
+_PATIENCE, _SHARE = 1 << 20, 1
+# They are found for so many steps beyond that of the slot under way.
+_AHEAD = 4
 
 
 def make_earliest_flow(
@@ -55,14 +59,18 @@ def make_earliest_flow(
         If the plan takes a move that the network has not.
     """
     from trihex.optimum.kernels.earliest import fill_slots
-    from trihex.optimum.kernels.residual import BUDGET_SPENT, DONE, LIST_FULL
+    from trihex.optimum.kernels.residual import BUDGET_SPENT, DONE, LABELS_OLD, LIST_FULL
     from trihex.optimum.kernels.slots import SERVED, TOTAL
     from trihex.optimum.kernels.words import DEAD, LABEL
 
     size = network.node_count
     layers = int(plan.arrival_step_of_robot[robots].max(initial=0)) + 1
     limit = limit_or_default(memory_limit)
-    check_memory(network, cells, layers, layers * size * _BYTES_PER_NODE, limit)
+
+    def take(more: int) -> None:
+        check_memory(network, cells, layers, layers * size * _BYTES_PER_NODE + more, limit)
+
+    take(0)
     graph = make_slot_graph(network)
     start = start_nodes(network, cells)
     words = lay_words(network, graph, plan, start, robots, layers)
@@ -74,8 +82,10 @@ def make_earliest_flow(
     status = BUDGET_SPENT
     while status != DONE:
         if status == LIST_FULL:
-            check_memory(network, cells, layers, layers * size * _BYTES_PER_NODE + 3 * search.log.nbytes, limit)
-            search = search._replace(log=np.concatenate([search.log, np.empty_like(search.log)]))
+            take(3 * search.log.nbytes)
+            search = search._replace(log=_longer(search.log))
+        elif status == LABELS_OLD:
+            _find_labels(graph, search, take)
         status = fill_slots(graph, search, cells.size, _BUDGET)
         if progress:
             progress(int(search.state[SERVED]), cells.size)
@@ -128,6 +138,7 @@ def _make_search(network: Network, words: NDArray[np.uint32]) -> Any:
 
     state = np.zeros(kernels.STATE_SIZE, dtype=np.int64)
     state[kernels.GOAL], state[kernels.LAST] = network.node_count, words.size // network.node_count - 1
+    state[kernels.PATIENCE] = _PATIENCE
     return given(
         kernels.SlotSearch,
         words=words,
@@ -136,3 +147,28 @@ def _make_search(network: Network, words: NDArray[np.uint32]) -> Any:
         state=state,
         most=np.empty(0, dtype=np.int64),
     )
+
+
+def _find_labels(graph: Any, search: Any, take: Callable[[int], None]) -> None:
+    """Find all labels anew, and let searches see about as many nodes before it is done again."""
+    from trihex.kernels.signatures import given
+    from trihex.optimum.kernels import slots, turns as kernels
+    from trihex.optimum.kernels.residual import DONE, LIST_FULL
+
+    state = np.zeros(kernels.STATE_SIZE, dtype=np.int64)
+    state[kernels.ROWS] = min(search.state[slots.STEP] + _AHEAD, search.state[slots.LAST]) + 1
+    room = 2 * graph.out.shape[0] * graph.out.shape[1]
+    stack, queue = np.empty(room, dtype=np.int64), np.empty(room, dtype=np.int64)
+    status = None
+    while status != DONE:
+        turning = given(kernels.Turning, words=search.words, stack=stack, queue=queue, state=state)
+        status = kernels.find_turns(graph, turning, _BUDGET)
+        if status == LIST_FULL:
+            take(search.log.nbytes + 3 * (stack.nbytes + queue.nbytes))
+            stack, queue = _longer(stack), _longer(queue)
+    search.state[slots.SPENT] = 0
+    search.state[slots.PATIENCE] = max(_PATIENCE, _SHARE * state[kernels.LABELLED])
+
+
+def _longer(array: NDArray[Any]) -> NDArray[Any]:
+    return np.concatenate([array, np.empty_like(array)])

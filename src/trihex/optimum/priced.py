@@ -13,7 +13,7 @@ from trihex.memory import limit_or_default
 from trihex.optimum.doors import shut_doors
 from trihex.optimum.flow import Flow
 from trihex.optimum.network import Network
-from trihex.optimum.queues import price_arrivals, room_of_slots
+from trihex.optimum.queues import room_of_slots, share_arrivals
 from trihex.optimum.workspace import (
     SPARE_LAYERS,
     check_memory,
@@ -30,13 +30,14 @@ _BYTES_PER_NODE = 9
 _BUDGET = 500_000
 # Length of the lists at first.
 _LIST = 1 << 16
-# The lists that grow.
-_LISTS = ("sides", "filed", "arrivals", "vain", "stack", "seen")
 # For how many units to come it is told apart what is tight when, at most and at first.
 _RISES, _AHEAD = 1 << 12, 16
 # By how many of the least costs of a step arrivals are cheaper than if robots met nowhere else. What is too cheap is
 # soon mended, what is too dear takes a search for everybody who does not come.
 _REBATE = 1
+
+# How many nodes are looked at for a robot that goes to its place in the queue.
+_PATIENCE = 1 << 15
 
 
 def make_flow_at_prices(
@@ -117,16 +118,41 @@ class _PricedWork:
 
         network = self.network
         room = room_of_slots(network, self.layers)
-        prices = price_arrivals(network, self.cells, room)
-        tolls = np.minimum(np.maximum(prices - _REBATE * network.base, 0), NEVER // 4).astype(np.int32)
+        queues = share_arrivals(network, self.cells, room)
         arcs = np.count_nonzero(network.in_arcs[network.first_destination :, :, 0], axis=1)
+        # Where destinations alone hold robots up, nearly all come as if they met nowhere else: no rebate there.
+        is_limited = bool((room < arcs).all())
+        rebate = min(_REBATE, 0) if is_limited else _REBATE
+        tolls = np.minimum(np.maximum(queues.price - rebate * network.base, 0), NEVER // 4).astype(np.int32)
         tolled = given(kernels.Tolled, network.order, network.hops, network.cell_count, tolls, room < arcs)
         if tolls.any():
             for layer in range(self.layers - 1, -1, -1):
                 self.search.state[TOTAL] += kernels.lay_tolls(self.graph, self.nodes, tolled, layer)
-        entering: NDArray[np.int32] = self.nodes.entering
-        is_goal = np.arange(entering.size) % network.node_count >= network.first_destination
-        return np.flatnonzero((entering & WANTED != 0) & (~is_goal | (entering >> BITS > 0)))
+        if tolls.any() and is_limited:
+            self._go_to_goals(queues.slot)
+        entering = self.nodes.entering.reshape(self.layers, -1)
+        is_wanted = entering & WANTED != 0
+        is_wanted[:, network.first_destination :] &= entering[:, network.first_destination :] >> BITS > 0
+        return np.flatnonzero(is_wanted)
+
+    def _go_to_goals(self, slot: NDArray[np.int64]) -> None:
+        """Let robots go to the arrivals that they have in the queues."""
+        from trihex.kernels.signatures import given
+        from trihex.optimum.kernels import queueing as kernels
+
+        first, size = self.network.first_destination, self.network.node_count
+        step, which = np.divmod(slot, size - first)
+        queue = given(
+            kernels.Queue,
+            goal=np.where(slot >= 0, step * size + first + which, slot),
+            base=self.network.base,
+            patience=min(_PATIENCE, self.search.seen.size - 1),
+            rest=np.empty(size, dtype=np.int64),
+            key=np.empty(size, dtype=np.int64),
+            waiting=np.empty(size, dtype=np.int64),
+            is_waiting=np.zeros(size, dtype=np.bool_),
+        )
+        kernels.go_to_goals(queue, self.graph, self.nodes, self.search)
 
     def make_room(self, status: int) -> None:
         """Make room for what a search ended for; refuse it if there is none."""
@@ -134,8 +160,9 @@ class _PricedWork:
         from trihex.optimum.kernels.prices import PricedNodes
 
         if status == kernels.LIST_FULL:
-            lists = {name: getattr(self.search, name) for name in _LISTS}
-            self._check_memory(self.layers, 3 * sum(array.nbytes for array in lists.values()))
+            lists = {name: getattr(self.search, name) for name in self._full_lists()}
+            longer_bytes = 2 * sum(array.nbytes for array in lists.values())
+            self._check_memory(self.layers, sum(array.nbytes for array in self.search) + longer_bytes)
             longer_lists = {name: np.concatenate([array, np.empty_like(array)]) for name, array in lists.items()}
             self.search = self.search._replace(**longer_lists)
         elif status == kernels.LAYERS_FULL:
@@ -145,6 +172,21 @@ class _PricedWork:
             self.nodes = PricedNodes(*(longer(array, added) for array in self.nodes))
             self.layers += more
             self._open_layers(self.layers - more)
+
+    def _full_lists(self) -> tuple[str, ...]:
+        """Return the lists that a search needs longer; where nothing else is full it is what a walk has seen."""
+        from trihex.optimum.kernels.prices import ARRIVALS, FILED, LISTED, VAIN
+
+        search, state = self.search, self.search.state
+        more = self.graph.out.shape[1] + self.graph.into.shape[1]
+        if state[LISTED] + search.seen.size + more > search.sides.size:
+            return ("sides",)
+        if state[FILED] + more > len(search.filed):
+            return ("filed",)
+        if state[ARRIVALS] + state[VAIN] + more > search.arrivals.size:
+            return ("arrivals", "vain")
+        # A path that is laid may list a side for all that its walk has seen.
+        return ("stack", "seen", "sides") if search.sides.size < 2 * search.seen.size + more else ("stack", "seen")
 
     def _open_layers(self, first: int) -> None:
         """Let paths end at the destinations of all layers from the first one on, but for doors that are shut."""

@@ -1,8 +1,8 @@
-"""Queues: what arrivals at the destinations in each step are worth, as if robots met nowhere else."""
+"""Queues: what arrivals at the destinations in each step are worth, and whose they are, if robots meet nowhere else."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,8 +24,15 @@ def room_of_slots(network: Network, steps: int) -> NDArray[np.int64]:
     return room
 
 
-def price_arrivals(network: Network, cells: NDArray[np.int64], room: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return what arrivals cost beyond the way where robots share them out at the least cost.
+class Queues(NamedTuple):
+    """What arrivals are worth, and who has which."""
+
+    price: NDArray[np.int64]  # by step and destination
+    slot: NDArray[np.int64]  # of each robot, step * destinations + destination, or NONE
+
+
+def share_arrivals(network: Network, cells: NDArray[np.int64], room: NDArray[np.int64]) -> Queues:
+    """Return what arrivals cost beyond the way where robots share them out at the least cost, and who has which.
 
     Parameters
     ----------
@@ -37,18 +44,24 @@ def price_arrivals(network: Network, cells: NDArray[np.int64], room: NDArray[np.
 
     Returns
     -------
-    ndarray of int64, shape (steps, destinations)
-        Prices that prove that arrivals are shared out well; 0 where that is too much work.
+    Queues
+        Prices that prove that arrivals are shared out well; 0, and nobody has any, where that is too much work.
     """
+    from trihex.optimum.kernels.residual import NONE
+
     if room.size * network.node_count > _MOST_NODES or cells.size * room.size**2 > _MOST_SLOTS:
-        return np.zeros_like(room)
+        return Queues(np.zeros_like(room), np.full(cells.size, NONE))
     from trihex.optimum.kernels.queues import share_slot
 
     sharing = _make_sharing(_find_costs(network, cells, len(room)), room.reshape(-1))
     for robot in range(cells.size):
         share_slot(robot, sharing)
-    prices: NDArray[np.int64] = sharing.price
-    return prices.reshape(room.shape)
+    slot = np.full(cells.size, NONE)
+    for first in range(room.size):
+        robot = sharing.first[first]
+        while robot != NONE:
+            slot[robot], robot = first, sharing.following[robot]
+    return Queues(sharing.price.reshape(room.shape), slot)
 
 
 def _find_costs(network: Network, cells: NDArray[np.int64], steps: int) -> NDArray[np.int32]:

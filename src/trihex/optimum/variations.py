@@ -275,6 +275,7 @@ class Variations:
         state[kernels.STEP], state[kernels.GOAL] = first - 1, graph.node_count
         state[kernels.LAST] = (end or self._words.size // graph.node_count) - 1
         state[kernels.SERVED], state[kernels.TOTAL] = served, total
+        state[kernels.PATIENCE] = kernels.TIRELESS  # where most is dead from the beginning
         heads = np.empty(DEAD, dtype=np.int64)
         status = None
         while status not in (residual.DONE, residual.LAYERS_FULL):

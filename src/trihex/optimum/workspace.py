@@ -104,10 +104,14 @@ def layer_of(network: Network) -> Any:
 def check_memory(network: Network, cells: NDArray[np.int64], layers: int, need: int, limit: int) -> None:
     """Refuse what needs more bytes than the limit."""
     if need > limit:
+        scenario = network.scenario
+        frame, least = scenario.area.frame, scenario.entry_limit
+        is_free = least and (frame is None or frame.robot_radius == 0)  # else robots would overlap there
+        wider = f", a destination_capacity above {least}" if is_free else ""
         raise TooLargeError(
             f"the optimum for {cells.size} robots needs at least {need / GIB:.1f} GiB ({layers} steps of "
             f"{network.node_count} cells and vertices), more than memory_limit, {limit / GIB:.1f} GiB; plan fewer "
-            f"robots, a smaller area, or use planner 'fcost' and a lower bound"
+            f"robots, a smaller area{wider}, or use planner 'fcost' and a lower bound"
         )
 
 

@@ -8,7 +8,8 @@ the residual graph ends at the first late path: its robot takes the slot and giv
 none, then nothing that the search has seen will ever lead to a late path, and it is *dead*.
 
 The nodes are those of `trihex.optimum.network`, a word each: see `words`. Nodes are opened in order of turns so far
-plus label, depth first. Labels are hints where to look; only death is proven.
+plus label, depth first. Labels are hints where to look; only death is proven. When searches have seen many nodes,
+they end so that all labels are found anew, by `turns`.
 """
 
 from numba import types
@@ -20,6 +21,7 @@ from trihex.optimum.kernels.residual import (
     DONE,
     EXHAUSTED,
     FOUND,
+    LABELS_OLD,
     LAYERS_FULL,
     LIST_FULL,
     OFFSET,
@@ -41,9 +43,11 @@ from trihex.optimum.kernels.slots import (
     NEXT,
     NOBODY,
     NODE,
+    PATIENCE,
     SERVED,
     SLOT_GRAPH,
     SLOT_SEARCH,
+    SPENT,
     STEP,
     TOTAL,
     TRIED,
@@ -145,6 +149,8 @@ def _look(graph, search):
         state[BUDGET] -= 1
         if state[LOGGED] + graph.into.shape[1] > len(log):
             return LIST_FULL
+        if state[SPENT] > 0 and state[SPENT] + state[LOGGED] > state[PATIENCE]:
+            return LABELS_OLD
         entry = state[ENTRY]
         if entry == NOBODY:
             while state[LIST] < DEAD and heads[state[LIST]] == NOBODY:
@@ -186,7 +192,16 @@ def _close(found, search):
             if word & OPENED:
                 least = min(state[LIST] - log[entry, TURNS] + (log[entry, TRIED] == LEFT), DEAD - 1)
         words[at] = max(word & DEAD * LABEL, least * LABEL) | (word & ~(DEAD * LABEL | THIS_SEARCH))
+    state[SPENT] += state[LOGGED]
     state[LOGGED] = 0
+
+
+@HELPER
+def _forget(search):
+    """End a search before it has found anything; it is made anew with better labels."""
+    for entry in range(search.state[LOGGED]):
+        search.words[search.log[entry, AT]] &= ~THIS_SEARCH
+    search.state[LOGGED] = 0
 
 
 @APART
@@ -227,7 +242,7 @@ def _next_slot(graph, search):
 
 @kernel(types.int64(SLOT_GRAPH, SLOT_SEARCH, types.int64, types.int64))
 def fill_slots(graph, search, robots, budget):
-    """Fill the slots until all robots are settled, room is needed or some `budget` nodes were looked at."""
+    """Fill the slots until all robots are settled, room or new labels are needed or `budget` nodes were looked at."""
     state = search.state
     state[BUDGET] = budget
     while state[SERVED] < robots:
@@ -240,7 +255,9 @@ def fill_slots(graph, search, robots, budget):
             _next_slot(graph, search)
             continue
         status = _look(graph, search)
-        if status == BUDGET_SPENT or status == LIST_FULL:
+        if status == LABELS_OLD:
+            _forget(search)
+        if status == LABELS_OLD or status == BUDGET_SPENT or status == LIST_FULL:
             return status
         if status == FOUND:
             turn(graph, search)

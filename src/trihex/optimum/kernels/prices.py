@@ -35,7 +35,8 @@ BEFORE = 10  # robots that had a path before these walks
 UNTIL = 11  # the rise after which what rises is found anew, as nothing has been filed for later ones
 AHEAD = 12  # for how many units to come sides are filed: few if what rises has to be found anew soon in any case
 ANEW = 13  # robots that had a path when what rises was found anew
-STATE_SIZE = 14
+IS_EAGER = 14  # 1 where few robots are left, so that one goes as soon as it can, and what rises is then found anew
+STATE_SIZE = 15
 
 
 class PricedNodes(NamedTuple):

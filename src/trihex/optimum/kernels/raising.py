@@ -18,6 +18,7 @@ from trihex.optimum.kernels.prices import (
     RISE,
     RISES,
     UNTIL,
+    VAIN,
     WANTED,
     price_of,
     put_word,
@@ -113,15 +114,24 @@ def reach_from(side, graph, nodes, search):
 
 
 @HELPER
-def raise_prices(nodes, search):
-    """Raise prices by one unit, and let rise what was filed for that."""
+def is_full(graph, search):
+    """Tell whether a list may have no room for what comes next."""
+    state, more = search.state, graph.out.shape[1] + graph.into.shape[1]
+    return (
+        state[LISTED] + len(search.seen) + more > len(search.sides)
+        or state[FILED] + more > len(search.filed)
+        or state[ARRIVALS] + state[VAIN] + more > len(search.arrivals)
+    )
+
+
+@HELPER
+def let_rise(graph, nodes, search):
+    """Let rise what was filed for the rise that prices have come to, as far as there is room."""
     state, filed = search.state, search.filed
-    state[RISE] += 1
     which = state[RISE] % len(search.heads)
-    entry = search.heads[which]
-    search.heads[which] = NONE
-    while entry != NONE:
-        what, following = filed[entry, 0], filed[entry, 1]
+    while search.heads[which] != NONE and not is_full(graph, search):
+        entry = search.heads[which]
+        what, search.heads[which] = filed[entry, 0], filed[entry, 1]
         if what >= 0:
             begin_to_rise(what, nodes, search)
         else:
@@ -129,4 +139,3 @@ def raise_prices(nodes, search):
             state[ARRIVALS] += 1
         filed[entry, 1] = state[FREE]
         state[FREE] = entry
-        entry = following

@@ -18,6 +18,7 @@ EXHAUSTED = 3  # there is none of this cost
 DONE = 4  # all robots have their paths
 LAYERS_FULL = 5  # the layers need room
 LEVELS_FULL = 6  # a path costs more than bounds can hold
+LABELS_OLD = 7  # labels are to be found anew
 
 # Entries of the state of a search.
 LOGGED = 0  # entries in its log

@@ -22,6 +22,7 @@ from trihex.optimum.kernels.prices import (
     FILED,
     FREE,
     GRAPH,
+    IS_EAGER,
     LEAVING,
     LISTED,
     MARKED,
@@ -41,7 +42,7 @@ from trihex.optimum.kernels.prices import (
     put_word,
     word_of,
 )
-from trihex.optimum.kernels.raising import begin_to_rise, raise_prices, reach, reach_from
+from trihex.optimum.kernels.raising import begin_to_rise, is_full, let_rise, reach, reach_from
 from trihex.optimum.kernels.residual import (
     BUDGET_SPENT,
     DONE,
@@ -82,7 +83,7 @@ def settle(nodes, search):
 
 
 @APART
-def _begin_anew(nodes, search):
+def begin_anew(nodes, search):
     """Let rise no longer what no robot without path may come to any more: all but where these robots are."""
     state = search.state
     settle(nodes, search)
@@ -122,15 +123,6 @@ def _serve(arrival, graph, nodes, search):
     return True
 
 
-@HELPER
-def _is_full(graph, search):
-    """Tell whether a list may have no room for what comes next."""
-    state = search.state
-    more = graph.out.shape[1] + graph.into.shape[1]
-    most = max(state[LISTED], state[ARRIVALS] + state[VAIN], state[FILED])
-    return most + more + len(search.seen) > len(search.sides)
-
-
 @kernel(types.int64(GRAPH, NODES, SEARCH, types.int64))
 def serve_at_prices(graph, nodes, search, budget):
     """Serve robots until all have a path, room is needed or about `budget` sides have been seen; to be called again.
@@ -142,10 +134,12 @@ def serve_at_prices(graph, nodes, search, budget):
     while budget > 0:
         if state[SERVED] == len(search.start):
             return DONE
-        if _is_full(graph, search):
+        if is_full(graph, search):
             return LIST_FULL
         budget -= 1
-        if state[NEXT] < state[LISTED]:
+        if search.heads[state[RISE] % len(search.heads)] != NONE:
+            let_rise(graph, nodes, search)
+        elif state[NEXT] < state[LISTED] and not (state[IS_EAGER] and state[ARRIVALS] > 0):
             side = search.sides[state[NEXT]]
             if (side >> 1) + SPARE_ROWS * len(graph.out) > len(nodes.flow):
                 return LAYERS_FULL
@@ -153,22 +147,24 @@ def serve_at_prices(graph, nodes, search, budget):
             reach_from(side, graph, nodes, search)
         elif state[ARRIVALS] > 0:
             state[ARRIVALS] -= 1
-            seen = state[MARKED]
+            seen, served = state[MARKED], state[SERVED]
             if not _serve(search.arrivals[state[ARRIVALS]], graph, nodes, search):
                 state[ARRIVALS] += 1
                 return LIST_FULL
             budget -= state[MARKED] - seen
+            if state[IS_EAGER] and state[SERVED] > served:
+                begin_anew(nodes, search)
         elif state[VAIN] and state[SERVED] > state[BEFORE]:
             _try_again(nodes, search)
         elif state[RISE] == NEVER or (state[VAIN] and state[ANEW] == state[SERVED]):
             return EXHAUSTED
         elif state[VAIN]:
             state[AHEAD] = max(state[AHEAD] // 2, 1)
-            _begin_anew(nodes, search)
+            begin_anew(nodes, search)
         elif state[RISE] == state[UNTIL]:
             state[AHEAD] = min(state[AHEAD] * 4, len(search.heads) - 1)
-            _begin_anew(nodes, search)
+            begin_anew(nodes, search)
         else:
             _try_again(nodes, search)
-            raise_prices(nodes, search)
+            state[RISE] += 1
     return BUDGET_SPENT

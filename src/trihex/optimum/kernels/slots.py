@@ -33,7 +33,11 @@ FIRST = 6  # first entry of the walk in depth under way
 ENTRY = 7  # its entry under way, or `NOBODY`; at the end the node that the late path comes to, by the arc `TRIED`
 BUDGET = 8  # nodes that may still be looked at
 LAST = 9  # after this step it ends, whoever is not served
-STATE_SIZE = 10
+SPENT = 10  # entries of the searches since all labels were found anew
+PATIENCE = 11  # after so many they are to be
+STATE_SIZE = 12
+# As patience: labels are never found anew.
+TIRELESS = 1 << 62
 
 LOG = types.Array(types.uint32, 2, "C")
 
