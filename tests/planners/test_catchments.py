@@ -57,10 +57,31 @@ def test_only_what_is_crowded_has_a_price():
     assert not catchments_of(crowd_at_one_exit("hexagonal", robots=8)).find_prices().any()
 
 
+def test_in_large_crowds_some_are_asked_for_all(monkeypatch):
+    scenario = crowd_at_one_exit("hexagonal")
+    asked = {}
+    for most in (480, 240, 60, 20):
+        monkeypatch.setattr("trihex.planners.catchments._MOST_ASKED", most)
+        asked[most] = make_plan(scenario, "fcost").total_time, catchments_of(scenario).find_prices()[0]
+    for most, (total, price) in asked.items():
+        assert total < 1.05 * asked[480][0], most
+        assert 0 < price < 2 * asked[480][1], most
+    assert asked[480][0] < 0.97 * make_plan(scenario, "fcost", rule="aside").total_time
+
+
+@pytest.mark.parametrize("limit", ["_MANY_STEPS", "_SPARSER"])
+def test_exits_get_no_prices_where_that_would_take_long(limit, monkeypatch):
+    scenario = crowd_at_one_exit("hexagonal")
+    shared = make_plan(scenario, "fcost").total_time
+    monkeypatch.setattr(f"trihex.planners.fcost.{limit}", 0)
+    assert make_plan(scenario, "fcost").total_time > shared
+
+
 @pytest.mark.parametrize("seed", range(swept(40, 10)))
 def test_plans_keep_the_rules_and_are_never_worse(seed, monkeypatch):
     """Every scenario with more than one exit is tried, whether it is worth it or not."""
     monkeypatch.setattr("trihex.planners.fcost._WORTH", 0.0)
+    monkeypatch.setattr("trihex.planners.catchments._MOST_ASKED", (10, 10_000)[seed % 2])
     scenario = random_scenario(160_000 + seed, sides=(8, 16), waiting_costs=(None, 3, 15))
     n_scheme = th.make_n_scheme(scenario)
     plan = make_plan(scenario, "fcost", n_scheme=n_scheme)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -59,10 +60,9 @@ def command(file: Path | None, area: Path | None, port: int, no_browser: bool, *
         raise wrong_use("--planners is for --export")
     if export is not None:
         return _export(record, export, planners)
-    try:
+    with suppress(KeyboardInterrupt):  # which does not come where who started the command ignores Ctrl-C
         open_viewer(record, port=port, browser=not no_browser, tell=_tell)
-    except KeyboardInterrupt:
-        click.echo("stopped")
+    click.echo("stopped")
 
 
 def _export(record: Any, folder: Path, planners: tuple[str, ...] | None) -> None:

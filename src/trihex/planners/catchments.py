@@ -21,6 +21,8 @@ _NEAR = 3
 _STEPS, _ROUNDS = (8, 4, 2, 1), 10
 # An exit lets a robot pass at least every so many steps.
 _SLOWEST = 16
+# So many robots are asked at most: of larger crowds every second one, or every third, ..., each for all of them.
+_MOST_ASKED = 10_000
 # After so many robots in turn that get no lane nobody behind them in the catchment is tried.
 _PATIENCE = 20
 
@@ -41,7 +43,8 @@ class Catchments:
     By distance alone robots wait at one exit while another is free. So each exit gets a *price*, and robots go where
     price and distance together are least. An exit is taken to let one robot pass after the other, so often that those
     of its catchment would have arrived when they did in a plan; prices are changed, exit by exit, as long as robots
-    would arrive sooner by that, all together.
+    would arrive sooner by that, all together. Of a large crowd every second one, or every third, ..., is asked for all:
+    an exit then lets one of those pass every so often, as many times less often.
 
     Parameters
     ----------
@@ -56,15 +59,17 @@ class Catchments:
         self.exit = exits_of(scenario)
         self._field = PricedField(scenario, n_scheme.distance_of_site != NOT_REACHED)
         self._starts = scenario.area.layout.cell_to_site(scenario.robots[crowd.robot[1:]])
+        self._each = -(-self._starts.size // _MOST_ASKED)  # for how many robots one is asked
+        self._asked = self._starts[:: self._each].copy()
         self._edge = int(scenario.area.tessellation.cost_of_direction[0])
         cost = scenario.area.tessellation.cost_of_direction
         #: What a step costs a robot that goes on.
         self._step = int(cost.min() + cost.max()) // 2
         arrival = crowd.arrival[1:]
         wait = (arrival * self._step - n_scheme.distance_of_site[self._starts]).max()
-        own = self._catchment_of_site(self._starts, d_scheme.directions_of_site)[self._starts]
+        own = self._catchment_of_site(self._asked, d_scheme.directions_of_site)[self._asked]
         self._offers = self._make_offers(own, max(int(wait), self._edge))
-        self._shares = self._make_shares(arrival)
+        self._shares = self._make_shares(arrival[:: self._each])
 
     def _catchment_of_site(self, sites: NDArray[np.int32], directions: NDArray[np.uint16]) -> NDArray[np.int32]:
         """Return the exit to which first best directions lead from some sites; what is on no way is -1."""
@@ -83,18 +88,18 @@ class Catchments:
         from trihex.kernels.signatures import given
         from trihex.planners.kernels.catchments import Offers
 
-        near, found = self.n_scheme.distance_of_site[self._starts], []
+        near, found = self.n_scheme.distance_of_site[self._asked], []
         for exit in range(self.exit.max() + 1):
             chosen = np.flatnonzero(self.exit == exit)
             horizon = int(near[own == exit].max(initial=0)) + slack
             distance, known = self._field.spread(chosen, np.zeros(chosen.size, dtype=np.int64), horizon)
-            far = distance[self._starts]
+            far = distance[self._asked]
             robots = np.flatnonzero((far < known) & (far <= near + slack))
             found.append((robots, np.full(robots.size, exit), far[robots]))
         robot, of_exit, distance = map(np.concatenate, zip(*found, strict=True))
         order = np.argsort(robot, kind="stable")
         robot, of_exit, distance = robot[order], of_exit[order], distance[order]
-        first = np.searchsorted(robot, np.arange(self._starts.size + 1)).astype(np.int64)
+        first = np.searchsorted(robot, np.arange(self._asked.size + 1)).astype(np.int64)
         several = np.flatnonzero(np.diff(first)[robot] > 1)  # who has one offer only takes it at any price
         count = np.bincount(of_exit[several], minlength=self.exit.max() + 1)
         return given(
@@ -122,7 +127,7 @@ class Catchments:
             time=np.zeros(count, dtype=np.int64),
             chosen=nearest.astype(np.int64),
             count=np.zeros((count, int(offers.steps.max()) + 1), dtype=np.int32),
-            moved=np.empty(self._starts.size, dtype=np.int64),
+            moved=np.empty(self._asked.size, dtype=np.int64),
             touched=np.empty(count, dtype=np.int64),
             is_touched=np.zeros(count, dtype=np.int32),
             waiting_cost=price_of_waiting(self.n_scheme.scenario),
@@ -130,8 +135,8 @@ class Catchments:
         np.add.at(shares.count, (offers.exit[nearest], offers.steps[nearest]), 1)
         wanted = np.zeros(count, dtype=np.int64)
         np.add.at(wanted, offers.exit[nearest], kernels.PARTS * arrival)
-        least = kernels.PARTS // np.maximum(1, self._field.entries(self.exit))
-        kernels.find_gaps(wanted, least, _SLOWEST * kernels.PARTS, shares)
+        least = self._each * kernels.PARTS // np.maximum(1, self._field.entries(self.exit))
+        kernels.find_gaps(wanted, least, self._each * _SLOWEST * kernels.PARTS, shares)
         return shares
 
     def find_prices(self) -> NDArray[np.int64]:

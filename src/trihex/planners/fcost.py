@@ -24,8 +24,10 @@ RULES = ("best", "paper", "queue", "aside", "lanes")
 _FEW, _SPARSE = 2_000_000, 32
 # Looking for lanes may take about as long as planning does: so many nodes, and one for every fourth robot-step.
 _VISITS = 50_000
-# Exits get prices where robots lose more than such a part of the time, among so many destinations at most.
+# Exits get prices where robots lose more than such a part of the time, among so many destinations at most;
 _WORTH, _MOST_DESTINATIONS = 0.03, 1000
+# up to so many robot-steps, and so many cells times destinations for each of them, as some robots are asked for all.
+_MANY_STEPS, _SPARSER = 20_000_000, 128
 # Lanes without prices are then not looked for where so many robot-steps take no more than so many times the distances.
 _LARGE, _ENOUGH = 100_000, 1.08
 # Of so many robots and more each looks for a way better than a free one in every fourth step only: half the time, and
@@ -33,7 +35,7 @@ _LARGE, _ENOUGH = 100_000, 1.08
 _MANY, _PERIOD = 10_000, 4
 # Robots look ahead without being told to in plans of so many actions at most: beyond, plans take a tenth of a millionth
 # of a second for each, and to look ahead takes two to six times that.
-_MOST_ACTIONS = 500_000
+_MOST_ACTIONS = 2_000_000
 
 
 def plan_fcost(
@@ -60,7 +62,7 @@ def plan_fcost(
     rounds : int, optional
         How often all robots go along their ways and look ahead for cheaper ones, see `trihex.planners.mending`. More
         rounds, better plans: with 8 it takes about eight times as long. Default: once, under "best", where not all
-        steps cost the same and the plan has half a million of them at most; else never.
+        steps cost the same and the plan has two millions of them at most; else never.
     progress : callable, optional
         Called with (robots arrived, robots that can arrive), of one rule or round after the other.
 
@@ -137,14 +139,16 @@ def _run(n_scheme: NScheme, rule: str, keeps_actions: bool, progress: Progress |
         return _simulated(d_scheme, rule, keeps_actions, progress)
     best = _simulated(d_scheme, "aside", keeps_actions, progress)
     steps = best.crowd.arrival.sum() // scenario.duration_of_direction.min()
-    has_lanes = steps <= _FEW and scenario.area.free_count * scenario.destinations.size <= _SPARSE * steps
+    spread = scenario.area.free_count * scenario.destinations.size
+    has_lanes = steps <= _FEW and spread <= _SPARSE * steps
     most_visits = _VISITS + int(steps) // 4
-    shared = _shared(d_scheme, best, most_visits) if has_lanes else None
+    has_prices = steps <= _MANY_STEPS and spread <= _SPARSER * steps
+    shared = _shared(d_scheme, best, most_visits) if has_prices else None
     if shared is not None:
         lanes, paid = shared
         distances = best.crowd.total_distance
         best = _better(best, _simulated(lanes.d_scheme, "aside", keeps_actions, progress, best.total_time + paid))
-        has_lanes = steps < _LARGE or best.total_time > _ENOUGH * distances
+        has_lanes = has_lanes and (steps < _LARGE or best.total_time > _ENOUGH * distances)
     best = _better(best, run_greedy(n_scheme, keeps_actions, progress, best.total_time))
     if steps <= _FEW and not scenario.moves_by_steps:  # small crowds gain 1 to 2 %
         best = _better(best, _simulated(d_scheme, "queue", keeps_actions, progress, best.total_time))
