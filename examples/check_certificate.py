@@ -60,7 +60,7 @@ def cheapest(pays, target, cost, tolls):
 
 def replay(plan, target, via, cost, goals, can_arrive):
     """Return the sum of costs; reject a plan in which robots do what they must not, or fail to arrive."""
-    actions, first, cell = plan["actions"], plan["first_action"], plan["robots"].copy()
+    actions, first, cell = plan.pop("actions"), plan["first_action"], plan["robots"].copy()
     capacity, length, wait, total = int(plan["destination_capacity"]) or cell.size, np.diff(first), len(target) - 1, 0
     demand([one.dtype for one in (actions, first, cell)] == [np.uint8, np.int64, np.int64], "numbers must be whole")
     demand(first.size == cell.size + 1 and first[0] == 0 and first[-1] == actions.size, "actions must fit the robots")
