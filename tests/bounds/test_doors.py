@@ -34,7 +34,7 @@ def test_bounds_are_below_the_optimum():
 
 @pytest.mark.parametrize("time", [("costs", "allow"), ("costs", "forbid"), ("steps", "forbid")])
 def test_bounds_are_below_the_integer_program_and_planners_above(time):
-    for seed in range(swept(12, 3)):
+    for seed in range(swept(30, 3)):
         scenario = with_time(with_random_doors(crowded_scenario(1000 + seed, sides=(2, 5), most_robots=6)), *time)
         least = solve_timed(scenario)[2]
         assert max(values(scenario)) <= least, seed

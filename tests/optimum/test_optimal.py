@@ -135,7 +135,7 @@ def test_prices_know_shut_doors_and_robots_that_may_not_go_yet(monkeypatch, reba
     monkeypatch.setattr(
         priced._PricedWork, "find_paths", lambda work, *how: is_toll_laid.append(how[0]) or find_paths(work, *how)
     )
-    for seed in (900_010, 900_046, 900_047, *range(4_000, 4_000 + swept(30, 3)), 4_019, 4_020, 4_029):
+    for seed in (900_010, 900_046, 900_047, *range(4_000, 4_000 + swept(60, 9)), 4_019, 4_020, 4_029):
         scenario = with_doors_and_start_times(seed)
         plan = make_plan(scenario, "optimal")
         assert th.audit_plan(plan).is_clean, seed

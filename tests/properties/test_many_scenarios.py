@@ -9,7 +9,7 @@ from tests.sweeps import swept
 from trihex.bounds import cut_bound, distance_bound, slot_bound
 from trihex.planners import PLANNERS, make_plan
 
-COUNT = swept(3000)
+COUNT = swept(10_000)
 SHARES = 20
 # Planners that look at every (cell, step) are asked on the smaller ones only.
 THOROUGH = {"optimal", "astar"}

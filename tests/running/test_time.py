@@ -76,7 +76,7 @@ def test_a_robot_may_join_where_another_begins_to_come_at_once():
 
 @pytest.mark.parametrize("time", TIMES[1:])
 def test_a_run_that_stops_between_centres_goes_on_as_if_it_had_not(time, tmp_path):
-    for seed in range(1, swept(36, 12)):
+    for seed in range(1, swept(60, 12)):
         if seed % 5 == 0:  # it follows plans, and makes a new one after a stop
             continue
         run, again = random_trial(seed, time).run(), random_trial(seed, time)
@@ -195,7 +195,7 @@ def test_robots_are_put_at_centres_where_nobody_else_is():
 @pytest.mark.parametrize("planner", ["greedy", "fcost", "astar"])
 @pytest.mark.parametrize("time", TIMES[1:])
 def test_delayed_plans_stay_safe_and_all_arrive_who_do_in_the_plan(planner, time):
-    for seed in range(swept(20, 8)):
+    for seed in range(swept(40, 8)):
         plan = th.make_plan(random_trial(seed, time).scenario, planner)
         order = th.make_passing_order(plan)
         for delay in (0.0, 0.1, 0.4):

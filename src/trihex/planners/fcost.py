@@ -61,7 +61,7 @@ def plan_fcost(
         with several exits also lanes within the catchment of each, see `trihex.planners.catchments`.
     rounds : int, optional
         How often all robots go along their ways and look ahead for cheaper ones, see `trihex.planners.mending`. More
-        rounds, better plans: with 8 it takes about eight times as long. Default: once, under "best", where not all
+        rounds, better plans: with 8 it takes four to nine times as long. Default: once, under "best", where not all
         steps cost the same and the plan has two millions of them at most; else never.
     progress : callable, optional
         Called with (robots arrived, robots that can arrive), of one rule or round after the other.

@@ -171,7 +171,7 @@ def make_plan(
         Called with (robots arrived, robots that can arrive) a few times a second.
     record : {"plan", "arrivals"}
         Whether to return the plan, or only when each robot arrives and what that takes: 16 bytes a robot, and with
-        `greedy` and `fcost` no action is ever kept.
+        `greedy`, and `fcost` unless robots look ahead, no action is ever kept.
     **options
         Options of the planner, see `options_of`.
 
